@@ -1,0 +1,32 @@
+# embed_text(TARGET NAMESPACE name=file ...): compiles text files into TARGET and declares, in the generated
+# header "<room>/data/embedded.h" (room: the folder of the calling CMakeLists.txt), one function a file,
+#   namespace NAMESPACE { std::string_view name(); }
+# so that the program is one file and runs from any folder.
+function(embed_text TARGET NAMESPACE)
+  get_filename_component(room ${CMAKE_CURRENT_SOURCE_DIR} NAME)
+  set(folder ${CMAKE_BINARY_DIR}/embedded/${room}/data)
+  set(header "#pragma once\n#include <string_view>\nnamespace ${NAMESPACE} {\n")
+  set(source "#include \"${room}/data/embedded.h\"\nnamespace ${NAMESPACE} {\n")
+  foreach(pair ${ARGN})
+    string(REPLACE "=" ";" pair ${pair})
+    list(GET pair 0 name)
+    list(GET pair 1 file)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+    file(READ ${file} text)
+    string(LENGTH "${text}" length)
+    # A string literal may hold 64 KiB by the standard's minimum: cut into adjacent pieces.
+    set(pieces "")
+    set(start 0)
+    while(start LESS length)
+      string(SUBSTRING "${text}" ${start} 8000 piece)
+      string(APPEND pieces "R\"~~(${piece})~~\"\n")
+      math(EXPR start "${start} + 8000")
+    endwhile()
+    string(APPEND header "std::string_view ${name}();\n")
+    string(APPEND source "std::string_view ${name}() { return\n${pieces}; }\n")
+  endforeach()
+  file(CONFIGURE OUTPUT ${folder}/embedded.h CONTENT "${header}}\n" @ONLY)
+  file(CONFIGURE OUTPUT ${folder}/embedded.cpp CONTENT "${source}}\n" @ONLY)
+  target_sources(${TARGET} PRIVATE ${folder}/embedded.cpp)
+  target_include_directories(${TARGET} PRIVATE ${CMAKE_BINARY_DIR}/embedded)
+endfunction()
