@@ -1,0 +1,62 @@
+#pragma once
+// What a population of particles does to light, as plain arrays over size, wavelength and scattering angle: the
+// memory image of the NetCDF file. Everything is the particles' own, complete scattering: forward lobe included,
+// no sun's disc.
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "phase/base/units.h"
+
+namespace arcus::phase {
+
+/// s = sin²(θ/2) of a scattering angle in degrees, in [0, 1]. The one conversion from angle nodes to the variable of
+/// interpolation, so that all who use a table place its nodes at the same s.
+inline double sin2_half_deg(double angle_deg) {
+  const double sine = std::sin(0.5 * radians(angle_deg));
+  return sine * sine;
+}
+
+/// Cross-sections and the scattering matrix of randomly oriented symmetric particles (P22 = P11, P44 = P33 for
+/// spheres). Between the angle nodes p11, p12, p33 and p34 are linear in s = sin²(θ/2), dΩ = 4π ds; under that rule
+/// the integral of p11 over the sphere is 1 for every size and wavelength.
+struct ScatteringTable {
+  std::vector<double> size_um;               ///< ascending, at least one: effective radius of the population
+  std::vector<double> wavelength_nm;         ///< ascending, at least one: in vacuum
+  std::vector<double> scattering_angle_deg;  ///< ascending from 0 to 180, both included
+
+  // [size][wavelength], wavelength fastest
+  std::vector<double> extinction_cross_section_m2;  ///< mean of a particle, complete (diffraction included)
+  std::vector<double> scattering_cross_section_m2;
+  std::vector<double> asymmetry;         ///< mean cosine of the scattering angle
+  std::vector<double> forward_fraction;  ///< share of the extinction that clip_forward removes; 0: lobe kept
+
+  // [size][wavelength][angle], angle fastest, 1/sr; sign of p12: physics of Bohren & Huffman, S12 = (|S2|² − |S1|²)/2
+  std::vector<float> p11, p12, p33, p34;
+
+  /// Inside this angle (a node) the forward lobe is clipped where forward_fraction > 0; 0: no lobe is removed.
+  double forward_angle_deg = 0;
+
+  // What is known about the table's own errors; kept as attributes of the file.
+  double normalisation_error = 0;  ///< largest |1 − integral of p11| before the interpolant was normalised
+  double angle_error = 0;          ///< largest relative error of p11 between angle nodes, as far as it was checked
+
+  std::size_t row(std::size_t size, std::size_t wavelength) const { return size * wavelength_nm.size() + wavelength; }
+  /// Index of the first angle of a row in p11, p12, p33, p34.
+  std::size_t first(std::size_t size, std::size_t wavelength) const {
+    return row(size, wavelength) * scattering_angle_deg.size();
+  }
+};
+
+/// Clips the forward lobe of one row of p11 in place, at its nodes: inside forward_angle_deg no value is above the one
+/// at that angle. What is left is not renormalised: 1 minus its integral is the share of the scattered energy removed.
+template <class Number>
+void clip_forward(const std::vector<double>& angle_deg, double forward_angle_deg, Number* p11) {
+  std::size_t edge = 0;
+  while (edge + 1 < angle_deg.size() && angle_deg[edge] < forward_angle_deg) ++edge;
+  for (std::size_t i = 0; i < edge; ++i)
+    if (p11[i] > p11[edge]) p11[i] = p11[edge];
+}
+
+}  // namespace arcus::phase
