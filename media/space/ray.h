@@ -1,5 +1,5 @@
 #pragma once
-// A ray: where it starts, which way it goes, and between which distances it counts.
+// A stretch of a straight line in the world.
 
 #include <limits>
 
@@ -9,9 +9,11 @@ namespace arcus::media {
 
 struct Ray {
   Vec3 origin_m;
-  Vec3 direction;  ///< unit vector
-  double nearest_m = 0;
+  Vec3 direction;      ///< unit vector
+  double nearest_m = 0;  ///< the stretch begins here, measured from the origin
   double farthest_m = std::numeric_limits<double>::infinity();
+
+  Vec3 at(double distance_m) const { return origin_m + direction * distance_m; }
 };
 
 }  // namespace arcus::media
