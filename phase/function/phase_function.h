@@ -1,0 +1,63 @@
+#pragma once
+// Where scattered light goes: a small value that is one of a closed set of kinds, made anew at every collision.
+
+#include <variant>
+
+#include "phase/base/random.h"
+#include "phase/base/spectrum.h"
+#include "phase/base/vec3.h"
+#include "phase/base/wavelengths.h"
+#include "phase/function/analytic.h"
+
+namespace arcus::phase {
+
+class SphereTable;
+
+/// One size node of a table, which must outlive it.
+struct SphereLobe {
+  const SphereTable* table;
+  int size;
+};
+
+/// A direction drawn from a phase function.
+struct Draw {
+  Vec3 outgoing;            ///< unit vector, the way the light goes on
+  Spectrum value_per_sr;    ///< phase function in that direction
+  Spectrum density_per_sr;  ///< how likely the draw was, had each wavelength led it; for all kinds here equal to the value
+};
+
+/// Integrates to 1 over the sphere [1/sr] at every wavelength. Both directions are unit vectors that point the way the
+/// light travels: dot(incoming, outgoing) = 1 is straight on. All kinds here depend on the angle between them alone,
+/// so a path traced backwards may pass them in its own order.
+class PhaseFunction {
+ public:
+  using Kinds = std::variant<Isotropic, Rayleigh, HenyeyGreenstein, SphereLobe>;
+
+  PhaseFunction() = default;  ///< isotropic
+  PhaseFunction(const Kinds& kind) : kind_(kind) {}
+
+  /// Value for light from one direction. No sun's disc: to be used for all light but that of the disc where
+  /// includes_sun_disc() is true, and for all light elsewhere.
+  Spectrum value(const Vec3& incoming, const Vec3& outgoing, const Wavelengths& wavelengths) const;
+
+  /// True: sunlight is added with sunlit_value, and paths never count the sun's disc after such a scattering.
+  bool includes_sun_disc() const;
+
+  /// Mean of value over the sun's limb-darkened disc, whose centre's light travels along `from_centre`; only where
+  /// includes_sun_disc(). Times the irradiance on a surface facing the sun it gives the radiance scattered once.
+  Spectrum sunlit_value(const Vec3& from_centre, const Vec3& outgoing, const Wavelengths& wavelengths) const;
+
+  /// A direction drawn as the first of the wavelengths would: its density there is value()[0].
+  Draw draw(const Vec3& incoming, const Wavelengths& wavelengths, Random& random) const;
+
+  /// Density of draw in a direction, had each wavelength led it [1/sr].
+  Spectrum density(const Vec3& incoming, const Vec3& outgoing, const Wavelengths& wavelengths) const {
+    return value(incoming, outgoing, wavelengths);
+  }
+
+ private:
+  Kinds kind_;
+};
+static_assert(sizeof(PhaseFunction) <= 32);
+
+}  // namespace arcus::phase
