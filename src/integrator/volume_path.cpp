@@ -1,0 +1,143 @@
+#include "src/integrator/volume_path.h"
+
+#include "media/medium/scatterer.h"
+#include "media/tracking/collision_walk.h"
+#include "media/tracking/transmittance.h"
+
+namespace arcus::render {
+
+struct VolumePath::Path {
+  media::Ray ray;
+  Spectrum weight = Spectrum::filled(1);   ///< contribution over the hero's density
+  Spectrum density = Spectrum::filled(1);  ///< had that wavelength led, over the hero's
+  /// Share that a direct hit of the sun's disc counts: the rest was, or will be, found by asking the sun. 1 for what
+  /// the camera sees directly.
+  float sun_share = 1;
+  long long bounces = 0;
+
+  Spectrum contribution(const Spectrum& light) const { return weight * light / density.mean(); }
+
+  void pass_null_collision(const media::Collision& collision) {
+    const Spectrum null = Spectrum::filled(collision.majorant_per_m) - collision.extinction_per_m;
+    const Spectrum ratio = null / null[0];
+    weight *= ratio;
+    density *= ratio;
+  }
+
+  /// Ends paths that have little left to bring; the survivors take over (Arvo and Kirk 1990).
+  bool survives_roulette(Random& random) {
+    constexpr float enough = 0.25f;
+    const float left = weight.max() / density.mean();
+    if (left >= enough) return true;
+    if (!(left > 0) || random.uniform() * enough >= left) return false;
+    weight *= enough / left;
+    return true;
+  }
+};
+
+Spectrum VolumePath::radiance(const media::Ray& camera_ray, const Wavelengths& wavelengths, const FirstNumbers&,
+                              Random& random) const {
+  Spectrum total;
+  Path path{.ray = camera_ray};
+  do {
+    const auto hit = scene_.surfaces.nearest_hit(path.ray);
+    if (hit) path.ray.farthest_m = hit->distance_m;
+
+    bool collided = false;
+    media::Collision collision;
+    media::CollisionWalk walk(*scene_.medium, path.ray, wavelengths, random);
+    while (walk.next(collision)) {
+      if (random.uniform() * collision.majorant_per_m < collision.extinction_per_m[0]) {
+        collided = true;
+        break;
+      }
+      path.pass_null_collision(collision);
+    }
+
+    if (!collided && !hit) return total + escaped(path, wavelengths);
+    if (path.bounces++ == max_bounces_) return total;
+    if (collided) {
+      scatter(path, collision, wavelengths, random, total);
+    } else {
+      reflect(path, *hit, wavelengths, random, total);
+    }
+  } while (path.survives_roulette(random));
+  return total;
+}
+
+Spectrum VolumePath::escaped(const Path& path, const Wavelengths& wavelengths) const {
+  Spectrum light = scene_.sky.radiance(path.ray.direction, wavelengths);
+  if (path.sun_share > 0) light += scene_.sun.radiance(path.ray.direction, wavelengths) * path.sun_share;
+  return path.contribution(light);
+}
+
+void VolumePath::scatter(Path& path, const media::Collision& collision, const Wavelengths& wavelengths, Random& random,
+                         Spectrum& total) const {
+  const media::Scatterer scatterer = scene_.medium->scatterer(collision, wavelengths, random.uniform());
+  const phase::PhaseFunction& function = scatterer.phase;
+  const Spectrum& extinction = collision.component_extinction_per_m;
+  path.weight *= scatterer.albedo * extinction / extinction[0];
+  path.density *= extinction / extinction[0];
+  const Vec3 incoming = path.ray.direction;
+  const Sun& sun = scene_.sun;
+
+  if (sun.is_on()) {
+    const Vec3 to_sun = sun.draw(random.uniform_double(), random.uniform_double());
+    if (function.includes_sun_disc()) {
+      // The disc is in the table; only the way to it is drawn.
+      const Spectrum value = function.sunlit_value(sun.to_centre(), incoming, wavelengths);
+      total += path.contribution(value * sun.irradiance_w_per_m2_nm(wavelengths) *
+                                 sun_transmittance(collision.position_m, to_sun, wavelengths, random));
+    } else {
+      const Spectrum value = function.value(incoming, to_sun, wavelengths);
+      const double asked = path.density.mean() * sun.density_per_sr(to_sun);
+      const double found = (path.density * value).mean();  // value is the density of draw()
+      total += path.contribution(value * sun.radiance(to_sun, wavelengths) *
+                                 sun_transmittance(collision.position_m, to_sun, wavelengths, random)) *
+               static_cast<float>(path.density.mean() / (asked + found));
+    }
+  }
+
+  const phase::Draw draw = function.draw(incoming, wavelengths, random);
+  if (function.includes_sun_disc()) {
+    path.sun_share = 0;
+  } else {
+    const double asked = path.density.mean() * sun.density_per_sr(draw.outgoing);
+    const double found = (path.density * draw.density_per_sr).mean();
+    path.sun_share = static_cast<float>(found / (asked + found));
+  }
+  path.weight *= draw.value_per_sr / draw.density_per_sr[0];
+  path.density *= draw.density_per_sr / draw.density_per_sr[0];
+  path.ray = media::Ray{collision.position_m, draw.outgoing};
+}
+
+void VolumePath::reflect(Path& path, const Hit& hit, const Wavelengths& wavelengths, Random& random,
+                         Spectrum& total) const {
+  const Matte& material = *hit.material;
+  const Sun& sun = scene_.sun;
+  if (sun.is_on()) {
+    const Vec3 to_sun = sun.draw(random.uniform_double(), random.uniform_double());
+    const double value = material.value_per_sr(hit.normal, to_sun);
+    if (value > 0) {
+      const double cosine = dot(hit.normal, to_sun);
+      const double asked = sun.density_per_sr(to_sun), found = material.density_per_sr(hit.normal, to_sun);
+      total += path.contribution(sun.radiance(to_sun, wavelengths) *
+                                 sun_transmittance(hit.position_m, to_sun, wavelengths, random)) *
+               static_cast<float>(value * cosine / (asked + found));
+    }
+  }
+  const Vec3 away = material.draw(hit.normal, random.uniform_double(), random.uniform_double());
+  const double asked = sun.density_per_sr(away), found = material.density_per_sr(hit.normal, away);
+  path.sun_share = static_cast<float>(found / (asked + found));
+  path.weight *= static_cast<float>(material.albedo());
+  path.ray = media::Ray{hit.position_m, away};
+}
+
+Spectrum VolumePath::sun_transmittance(const Vec3& position_m, const Vec3& to_sun, const Wavelengths& wavelengths,
+                                       Random& random) const {
+  const media::Ray ray{position_m, to_sun};
+  if (scene_.surfaces.is_blocked(ray)) return {};
+  return media::ratio_transmittance(*scene_.medium, ray, wavelengths, random);
+}
+
+}  // namespace arcus::render

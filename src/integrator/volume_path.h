@@ -1,0 +1,43 @@
+#pragma once
+// The spectral volumetric path tracer: follows light backwards from the camera, through tentative collisions (delta
+// tracking), scattering in media and reflection from surfaces, and asks the sun at every one of them.
+//
+// A path carries four wavelengths. The first, the hero, decides where it goes; for every wavelength j two numbers are
+// kept, relative to the hero's density: `weight`, what the path contributes at j, and `density`, how likely the path
+// would have been had j led it. A contribution counts weight / mean(density): the balance heuristic over which of the
+// four led (Wilkie et al., EGSR 2014; Miller, Georgiev and Jarosz, "A null-scattering path integral formulation of
+// light transport", SIGGRAPH 2019). Where a medium is grey the two stay equal and the four share everything.
+
+#include "phase/base/random.h"
+#include "src/integrator/sample_points.h"
+#include "src/scene/scene.h"
+
+namespace arcus::render {
+
+class VolumePath {
+ public:
+  /// max_bounces: scatterings and reflections a path may have; 0 shows only what is seen directly.
+  VolumePath(const Scene& scene, long long max_bounces) : scene_(scene), max_bounces_(max_bounces) {}
+
+  /// An unbiased estimate of the radiance that arrives along the ray against its direction [W m-2 sr-1 nm-1].
+  Spectrum radiance(const media::Ray& camera_ray, const Wavelengths& wavelengths, const FirstNumbers& first,
+                    Random& random) const;
+
+ private:
+  struct Path;
+  /// Light that arrives where the path has left the scene.
+  Spectrum escaped(const Path& path, const Wavelengths& wavelengths) const;
+  /// Scatters in the medium: adds sunlight to `total`, turns the path.
+  void scatter(Path& path, const media::Collision& collision, const Wavelengths& wavelengths, Random& random,
+               Spectrum& total) const;
+  /// Reflects from a surface: likewise.
+  void reflect(Path& path, const Hit& hit, const Wavelengths& wavelengths, Random& random, Spectrum& total) const;
+  /// Share of the sun's light that reaches a point from a direction [0 to 1].
+  Spectrum sun_transmittance(const Vec3& position_m, const Vec3& to_sun, const Wavelengths& wavelengths,
+                             Random& random) const;
+
+  const Scene& scene_;
+  long long max_bounces_;
+};
+
+}  // namespace arcus::render

@@ -1,0 +1,57 @@
+#pragma once
+// The sun: a disc of given radius with limb darkening and a spectrum. Seen directly, drawn from, and asked for its
+// irradiance.
+
+#include <string>
+
+#include "phase/base/curve.h"
+#include "phase/base/frame.h"
+#include "phase/base/spectrum.h"
+#include "phase/base/wavelengths.h"
+#include "phase/optics/sun_disc.h"
+#include "phase/settings/keys.h"
+
+namespace arcus::render {
+
+struct SunSettings {
+  double azimuth_deg = 180;            ///< compass azimuth, clockwise from north
+  double elevation_deg = 20;           ///< above the horizon
+  double angular_radius_deg = 0.2666;  ///< apparent radius of the disc
+  std::string spectrum = "solar";      ///< solar | equal_energy | a file of two columns: nm (vacuum), W m-2 nm-1
+  double irradiance_scale = 1;         ///< multiplies the spectrum; 0 turns the sun off
+};
+void list_keys(Keys& keys, SunSettings& sun);
+
+/// Spectral irradiance [W m-2 nm-1] against vacuum wavelength [nm] on a surface that faces the sun, scale included.
+/// `folder`: where a file's relative path starts. The built-in solar spectrum is Gueymard's (2004) at 1 AU.
+/// Throws bad_input for a file that is no such table or has negative values.
+Curve sun_irradiance(const SunSettings& sun, const std::string& folder);
+
+class Sun {
+ public:
+  Sun(const SunSettings& settings, Curve irradiance_w_per_m2_nm);
+
+  bool is_on() const { return is_on_; }
+  /// Unit vector from the scene to the disc's centre.
+  const Vec3& to_centre() const { return frame_.along; }
+  double angular_radius_rad() const { return angular_radius_rad_; }
+  const Curve& irradiance_curve() const { return irradiance_; }
+
+  /// Irradiance on a surface that faces the sun [W m-2 nm-1].
+  Spectrum irradiance_w_per_m2_nm(const Wavelengths& wavelengths) const;
+  /// Radiance seen in a direction (unit, from the scene) [W m-2 sr-1 nm-1]; 0 outside the disc.
+  Spectrum radiance(const Vec3& direction, const Wavelengths& wavelengths) const;
+  /// Density of draw() [1/sr] in a direction; 0 outside the disc.
+  double density_per_sr(const Vec3& direction) const;
+  /// A direction on the disc, uniform in solid angle; u, v in [0, 1).
+  Vec3 draw(double u, double v) const { return direction_in_cone(frame_, sin2_half_radius_, u, v); }
+
+ private:
+  Frame frame_;
+  double angular_radius_rad_, sin2_half_radius_, solid_angle_sr_;
+  bool is_on_;
+  Curve irradiance_;
+  phase::DiscProfile profile_;
+};
+
+}  // namespace arcus::render

@@ -1,0 +1,25 @@
+#pragma once
+// From a scene's settings to the finished picture with its metadata.
+
+#include <optional>
+
+#include "src/film/image.h"
+#include "src/film/tone.h"
+#include "src/render/render.h"
+#include "src/scene/build_scene.h"
+#include "src/scene/settings.h"
+
+namespace arcus::render {
+
+struct Picture {
+  Image image;          ///< channels as the settings ask for, and metadata
+  ToneSettings tone;    ///< for the PNG: exposure 0 shows a white matte surface that faces the sun as a bright white
+  RunResult run;
+  RefusedSamples refused;
+};
+
+/// Renders `crop` of the scene, or all of it. A run that is stopped gives what is done.
+Picture render_picture(const SceneSettings& settings, const Scene& scene, std::optional<PixelBox> crop,
+                       const RunOptions& options);
+
+}  // namespace arcus::render

@@ -1,0 +1,118 @@
+#include "src/render/render.h"
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "src/integrator/volume_path.h"
+
+namespace arcus::render {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int block_size = 16;              // pixels; small enough to spread unequal work, large enough to share memory
+constexpr long long samples_per_pass = 16;  // after the first passes, which are shorter: there is a picture early
+
+/// Calls a report at intervals until destroyed, and a last time then.
+class Reporter {
+ public:
+  Reporter(std::function<void()> report) : report_(std::move(report)) {
+    if (!report_) return;
+    thread_ = std::thread([this] {
+      std::unique_lock lock(mutex_);
+      while (!done_.wait_for(lock, std::chrono::milliseconds(200), [this] { return is_done_; })) report_();
+    });
+  }
+  ~Reporter() {
+    if (!report_) return;
+    {
+      const std::lock_guard lock(mutex_);
+      is_done_ = true;
+    }
+    done_.notify_one();
+    thread_.join();
+    report_();
+  }
+
+ private:
+  std::function<void()> report_;
+  std::mutex mutex_;
+  std::condition_variable done_;
+  bool is_done_ = false;
+  std::thread thread_;
+};
+
+}  // namespace
+
+RunResult render(const Scene& scene, const RenderSettings& settings, const RunOptions& options, Film& film) {
+  const auto begin = Clock::now();
+  const auto seconds_since_begin = [begin] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
+  const VolumePath integrator(scene, settings.max_bounces);
+  const auto seed = static_cast<std::uint64_t>(settings.seed);
+  const PixelBox area = film.box();
+  const int blocks_x = (area.width() + block_size - 1) / block_size;
+  const int blocks_y = (area.height() + block_size - 1) / block_size;
+
+  std::atomic<long long> samples_done{0};
+  std::atomic<bool> is_stopped{false};
+  const auto progress = [&] {
+    return Progress{seconds_since_begin(), static_cast<double>(samples_done.load()),
+                    static_cast<double>(settings.samples_per_pixel) * area.width() * area.height()};
+  };
+  const auto must_stop = [&] {
+    if (options.stop_request && options.stop_request->load() != 0) return true;
+    return options.time_limit_s > 0 && seconds_since_begin() >= options.time_limit_s;
+  };
+
+  const auto render_pixel = [&](int x, int y, long long first, long long last) {
+    const auto pixel = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(film.width_px()) +
+                       static_cast<std::uint64_t>(x);
+    for (long long i = first; i < last; ++i) {
+      const auto sample = static_cast<std::uint32_t>(i);
+      const FirstNumbers numbers = first_numbers(seed, pixel, sample);
+      Random random(seed, pixel, sample);
+      const Wavelengths wavelengths = draw_wavelengths(numbers.wavelength);
+      const auto ray = scene.camera->ray(x + numbers.pixel_x, y + numbers.pixel_y);
+      const Spectrum radiance = ray ? integrator.radiance(*ray, wavelengths, numbers, random) : Spectrum();
+      film.add_sample(x, y, sample, radiance, wavelengths);
+    }
+  };
+
+  RunResult result;
+  {
+    Reporter reporter(options.report ? std::function<void()>([&] { options.report(progress()); }) : nullptr);
+    tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    options.threads > 0 ? static_cast<std::size_t>(options.threads)
+                                                        : std::max(1u, std::thread::hardware_concurrency()));
+    long long done = 0;
+    while (done < settings.samples_per_pixel && !is_stopped) {
+      const long long pass = std::min({std::max(1LL, done), samples_per_pass, settings.samples_per_pixel - done});
+      arena.execute([&] {
+        tbb::parallel_for(0, blocks_x * blocks_y, [&](int block) {
+          if (is_stopped || must_stop()) {
+            is_stopped = true;
+            return;
+          }
+          const int left = area.x0 + block % blocks_x * block_size, top = area.y0 + block / blocks_x * block_size;
+          const int right = std::min(left + block_size, area.x1), bottom = std::min(top + block_size, area.y1);
+          for (int y = top; y < bottom; ++y)
+            for (int x = left; x < right; ++x) render_pixel(x, y, done, done + pass);
+          samples_done += pass * (right - left) * (bottom - top);
+        });
+      });
+      done += pass;
+    }
+  }
+  result.progress = progress();
+  result.is_complete = result.progress.samples_done == result.progress.samples_in_all;
+  return result;
+}
+
+}  // namespace arcus::render

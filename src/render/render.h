@@ -1,0 +1,43 @@
+#pragma once
+// Renders a scene into a film: blocks of pixels on all cores, in passes over the whole picture, so that it may be
+// stopped at any time. The numbers of a sample depend on seed, pixel and sample alone and the samples of a pixel are
+// added in their order, so the bits are the same for any number of threads.
+
+#include <atomic>
+#include <functional>
+
+#include "src/film/film.h"
+#include "src/scene/scene.h"
+#include "src/scene/settings.h"
+
+namespace arcus::render {
+
+/// How far a rendering is.
+struct Progress {
+  double seconds = 0;           ///< since the beginning
+  double samples_done = 0;      ///< paths
+  double samples_in_all = 0;    ///< paths
+  double samples_per_second() const { return seconds > 0 ? samples_done / seconds : 0; }
+  double seconds_left() const {
+    return samples_done > 0 ? seconds * (samples_in_all - samples_done) / samples_done : 0;
+  }
+};
+
+/// How to run, none of which changes a pixel that is finished.
+struct RunOptions {
+  int threads = 0;             ///< 0: as many as there are cores
+  double time_limit_s = 0;     ///< 0: none
+  const std::atomic<int>* stop_request = nullptr;      ///< rendering ends soon after it becomes non-zero
+  std::function<void(const Progress&)> report;         ///< called about five times a second from another thread
+};
+
+/// What came of it.
+struct RunResult {
+  bool is_complete = true;  ///< false: stopped or out of time; the film holds what is done
+  Progress progress;
+};
+
+/// Renders the film's pixels.
+RunResult render(const Scene& scene, const RenderSettings& settings, const RunOptions& options, Film& film);
+
+}  // namespace arcus::render

@@ -1,0 +1,58 @@
+// The program: names the subcommands, hands over, and turns what went wrong into the exit code.
+
+#include <CLI/CLI.hpp>
+
+#include <iostream>
+#include <new>
+
+#include "phase/base/error.h"
+#include "tools/command.h"
+#include "phase/base/version.h"
+
+namespace {
+
+int run(int argc, char** argv) {
+  using namespace arcus::tools;
+  CLI::App program("Renders light in weather: rainbows, fogbows, coronas, glories and halos from clouds in OpenVDB files.",
+                   "arcus");
+  program.set_version_flag("--version", std::string("arcus ") + arcus::version);
+  program.require_subcommand(1);
+  program.get_formatter()->column_width(36);
+  add_render(program);
+  add_author(program);
+  add_phase(program);
+  add_info(program);
+  add_profile(program);
+  add_compare(program);
+  try {
+    program.parse(argc, argv);
+    return exit_done;
+  } catch (const CLI::ParseError& error) {
+    const int code = program.exit(error, std::cout, std::cerr);
+    return code == 0 ? exit_done : static_cast<int>(arcus::Fault::input);
+  } catch (const Exit& exit) {
+    return exit.code;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) {
+    std::cerr << "arcus: this build needs a processor with AVX2 and FMA (x86-64-v3); "
+                 "configure it with -DARCUS_INSTRUCTION_SET=x86-64 for older ones\n";
+    return static_cast<int>(arcus::Fault::failed);
+  }
+  try {
+    return run(argc, argv);
+  } catch (const arcus::Error& error) {
+    std::cerr << "arcus: " << error.what() << '\n';
+    return static_cast<int>(error.fault());
+  } catch (const std::bad_alloc&) {
+    std::cerr << "arcus: out of memory; a smaller picture, table or grid needs less\n";
+    return static_cast<int>(arcus::Fault::failed);
+  } catch (const std::exception& error) {
+    std::cerr << "arcus: " << error.what() << '\n';
+    return static_cast<int>(arcus::Fault::failed);
+  }
+}

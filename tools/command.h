@@ -1,0 +1,35 @@
+#pragma once
+// What all subcommands share: the program's frame, its exit codes and interruption.
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include <atomic>
+#include <string>
+
+namespace arcus::tools {
+
+/// Exit codes beside those of arcus::Fault.
+inline constexpr int exit_done = 0, exit_interrupted = 130, exit_terminated = 143;
+
+/// The signal that asked the program to stop (SIGINT, SIGTERM), or 0. A second one ends it at once.
+const std::atomic<int>& stop_request();
+
+/// Makes SIGINT and SIGTERM set stop_request().
+void watch_for_interruption();
+
+/// What a subcommand returns where it is not done: ends the program with that code after all output is written.
+struct Exit {
+  int code;
+};
+
+// Each adds its subcommand to the program.
+void add_render(CLI::App& program);
+void add_author(CLI::App& program);
+void add_phase(CLI::App& program);
+void add_info(CLI::App& program);
+void add_profile(CLI::App& program);
+void add_compare(CLI::App& program);
+
+}  // namespace arcus::tools
