@@ -45,6 +45,9 @@ class Keys {
   virtual void text(std::string_view name, std::string& value, std::string_view meaning) = 0;
   virtual void choice(std::string_view name, std::string& value, const std::vector<std::string>& choices,
                       std::string_view meaning) = 0;
+  /// One of the given words, or a number within the range, kept as its text.
+  virtual void word_or_number(std::string_view name, std::string& value, const std::vector<std::string>& words,
+                              const Range& range, std::string_view meaning) = 0;
   /// Any number of the given words.
   virtual void choices(std::string_view name, std::vector<std::string>& values,
                        const std::vector<std::string>& choices, std::string_view meaning) = 0;

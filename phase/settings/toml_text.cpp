@@ -65,6 +65,13 @@ class Reader : public Keys {
               std::string_view) override {
     if (const toml::node* node = find(name)) value = word_at(*node, name, choices);
   }
+  void word_or_number(std::string_view name, std::string& value, const std::vector<std::string>& words,
+                      const Range& range, std::string_view) override {
+    const toml::node* node = find(name);
+    if (!node) return;
+    if (node->is_string()) value = word_at(*node, name, words, " or a number that " + range.words());
+    else value = number_text(number_at(*node, name, range));
+  }
   void choices(std::string_view name, std::vector<std::string>& values, const std::vector<std::string>& choices,
                std::string_view) override {
     const toml::node* node = find(name);
@@ -198,10 +205,11 @@ class Reader : public Keys {
     }
     return values;
   }
-  std::string word_at(const toml::node& node, std::string_view name, const std::vector<std::string>& choices) const {
+  std::string word_at(const toml::node& node, std::string_view name, const std::vector<std::string>& choices,
+                      std::string_view alternative = "") const {
     const auto* word = node.as_string();
     if (word && std::find(choices.begin(), choices.end(), word->get()) != choices.end()) return word->get();
-    std::string expected = "must be " + list_of(choices);
+    std::string expected = "must be " + list_of(choices) + std::string(alternative);
     const std::string nearest = word ? nearest_name(word->get(), choices) : "";
     if (!nearest.empty()) expected += ". Did you mean '" + nearest + "'?";
     fail(node, name, kind_of(node), expected);
@@ -247,6 +255,10 @@ class Writer : public Keys {
   void text(std::string_view name, std::string& value, std::string_view) override { line(name, quoted(value)); }
   void choice(std::string_view name, std::string& value, const std::vector<std::string>&, std::string_view) override {
     line(name, quoted(value));
+  }
+  void word_or_number(std::string_view name, std::string& value, const std::vector<std::string>& words, const Range&,
+                      std::string_view) override {
+    line(name, std::find(words.begin(), words.end(), value) != words.end() ? quoted(value) : value);
   }
   void choices(std::string_view name, std::vector<std::string>& values, const std::vector<std::string>&,
                std::string_view) override {

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <functional>
+#include <string>
 
 #include "phase/base/spectrum.h"
 #include "phase/base/wavelengths.h"

@@ -1,7 +1,6 @@
 #pragma once
 // What becomes a picture: sums, counts and, on request, squares and spectral bins of every pixel.
 
-#include <atomic>
 #include <cstdint>
 #include <mutex>
 #include <optional>
