@@ -14,7 +14,7 @@ mkdir -p build && mv build-demo.log build/demo.log
 echo "building (minutes the first time) ..." >&2
 cmake --build --preset release --target arcus >>build/demo.log 2>&1 || fail "the build failed; see $root/build/demo.log"
 
-arcus=build/release/tools/arcus
+arcus=build/release/arcus
 mkdir -p build/pictures
 bash scenes/author.sh "$arcus" rain_shower || fail "the shower could not be authored"
 "$arcus" render scenes/rain_shower.toml -o build/pictures/rain_shower.exr "$@" || fail "the render failed"

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "phase/base/error.h"
+#include "phase/settings/reference.h"
 
 namespace arcus {
 namespace {
@@ -105,6 +106,21 @@ TEST(TomlText, WritingAndReadingGivesTheSameText) {
   room.lamps.resize(2);
   const std::string text = text_of(room);
   EXPECT_EQ(text_of(settings_from_text<Room>(text, "copy")), text);
+}
+
+TEST(Reference, NamesEveryKeyWithItsDefault) {
+  Room room;
+  const std::string page = reference_page("Room", [&](Keys& keys) { list_keys(keys, room); });
+  for (const char* key : {"`height_m` | 2.5", "`main.power_w` | 60", "`lamp.colour` | \"white\"", "`material.power_w`"})
+    EXPECT_TRUE(contains(page, key)) << key << " in\n" << page;
+}
+
+TEST(Reference, SchemaHasBalancedBracketsAndEveryKey) {
+  Room room;
+  const std::string schema = json_schema("Room", [&](Keys& keys) { list_keys(keys, room); });
+  EXPECT_EQ(std::count(schema.begin(), schema.end(), '{'), std::count(schema.begin(), schema.end(), '}')) << schema;
+  for (const char* key : {"\"height_m\"", "\"power_w\"", "\"exclusiveMinimum\": 0", "\"enum\": [\"white\""})
+    EXPECT_TRUE(contains(schema, key)) << key;
 }
 
 }  // namespace arcus
