@@ -1,7 +1,7 @@
 #include "src/camera/camera.h"
 
-#include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "phase/base/error.h"
 #include "phase/base/units.h"
@@ -23,10 +23,10 @@ Range fov_range(const std::string& type) {
 std::string size_fault(double width_px, double height_px) {
   const double pixels = width_px * height_px;
   if (pixels <= static_cast<double>(most_pixels)) return "";
-  const double gib = pixels * 32 / (1 << 30), most_gib = static_cast<double>(most_pixels) * 32 / (1 << 30);
-  return number_text(pixels) + " pixels, which need " + number_text(std::round(gib * 10) / 10) +
-         " GiB for a film of 32 bytes a pixel, where at most " + std::to_string(most_pixels) + " pixels (" +
-         number_text(most_gib) + " GiB) are possible";
+  char text[200];
+  std::snprintf(text, sizeof text, "%.0f pixels, whose film takes %.1f GiB at 32 bytes a pixel (the limit: %lld pixels, %.0f GiB),",
+                pixels, pixels * 32 / 0x1p30, most_pixels, static_cast<double>(most_pixels) * 32 / 0x1p30);
+  return text;
 }
 
 void read_look_at(Keys& keys, CameraSettings& camera) {

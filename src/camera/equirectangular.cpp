@@ -11,7 +11,8 @@ Equirectangular::Equirectangular(const CameraSettings& settings)
 std::optional<media::Ray> Equirectangular::ray(double x, double y) const {
   const double longitude = (x - 0.5 * width_px_) * rad_per_pixel_;
   const double latitude = (0.5 * height_px_ - y) * rad_per_pixel_;
-  if (std::fabs(latitude) > pi / 2) return std::nullopt;
+  // The first and last row may begin at a pole, give or take rounding.
+  if (std::fabs(latitude) > pi / 2 * (1 + 1e-14)) return std::nullopt;
   return media::Ray{frame_.position_m,
                     frame_.to_world(std::sin(longitude) * std::cos(latitude), std::sin(latitude),
                                     std::cos(longitude) * std::cos(latitude))};

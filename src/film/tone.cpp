@@ -10,7 +10,7 @@ namespace {
 constexpr double shoulder_begins = 0.6;
 
 /// Rows of RGB to Y for Rec.709's primaries and white.
-double luminance(const Rgb& c) { return 0.2126390059 * c.r + 0.7151686788 * c.g + 0.0721923154 * c.b; }
+double luminance(const Rgb& c) { return 0.21263901 * c.r + 0.71516868 * c.g + 0.07219231 * c.b; }
 
 double with_shoulder(double v) {
   if (v <= shoulder_begins) return v;
