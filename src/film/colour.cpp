@@ -112,15 +112,19 @@ Xyz with_unit_y(const Xyz& c) { return c * (1 / c.y); }
 }  // namespace
 
 Xyz xyz_of_sample(const Spectrum& radiance, const Wavelengths& wavelengths) {
+  typedef int Cells __attribute__((vector_size(16)));
   const Rows& rows = matching_rows();
+  const Spectrum at = Spectrum(wavelengths[0], wavelengths[1], wavelengths[2], wavelengths[3]) -
+                      Spectrum::filled(static_cast<float>(shortest_wavelength_nm));
+  assert(at.min() > -0.01f && at.max() < static_cast<float>(cells) + 0.01f);
+  constexpr int last_cell = static_cast<int>(cells) - 1;
+  Cells cell = __builtin_convertvector(at.lanes, Cells);
+  cell = cell < 0 ? Cells{} : cell > last_cell ? Cells{} + last_cell : cell;
+  const Spectrum share = at - Spectrum(__builtin_convertvector(cell, Spectrum::Lanes));
   Spectrum sum;
   for (int i = 0; i < wavelength_count; ++i) {
-    const float at = wavelengths[i] - static_cast<float>(shortest_wavelength_nm);
-    assert(at > -0.01f && at < static_cast<float>(cells) + 0.01f);
-    const int k = std::clamp(static_cast<int>(at), 0, static_cast<int>(cells) - 1);
-    const Spectrum& low = rows[static_cast<std::size_t>(k)];
-    const Spectrum& high = rows[static_cast<std::size_t>(k) + 1];
-    sum += (low + (high - low) * (at - static_cast<float>(k))) * radiance[i];
+    const Spectrum* row = rows.data() + cell[i];
+    sum += (row[0] + (row[1] - row[0]) * share[i]) * radiance[i];
   }
   return {sum[0], sum[1], sum[2]};
 }

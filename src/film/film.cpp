@@ -2,7 +2,7 @@
 
 #include <unistd.h>
 
-#include <cassert>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>

@@ -15,7 +15,7 @@ namespace {
 
 /// Attributes that say how the file is laid out, not what the picture is.
 bool is_layout(std::string_view name) {
-  for (const std::string_view prefix : {"openexr:", "oiio:", "PixelAspectRatio", "compression", "screenWindow"})
+  for (const std::string_view prefix : {"openexr:", "oiio:", "PixelAspectRatio", "compression", "screenWindow", "DateTime"})
     if (name.starts_with(prefix)) return true;
   return false;
 }
@@ -37,6 +37,7 @@ OIIO::ImageSpec exr_spec(const Image& image) {
   spec.full_height = image.height_px();
   spec.channelnames = image.channel_names();
   spec.attribute("compression", "zip");
+  spec.attribute("DateTime", "");  // otherwise the plugin writes the present time, and no two files are equal
   for (const auto& [name, value] : image.metadata.entries()) add_attribute(spec, name, value);
   return spec;
 }
