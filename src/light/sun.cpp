@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "phase/base/error.h"
-#include "phase/data/embedded.h"
+#include "src/data/embedded.h"
 #include "phase/optics/refractive_index.h"
 #include "phase/settings/toml_text.h"
 
@@ -33,7 +33,7 @@ Curve scaled(std::vector<double> nm, std::vector<double> value, double scale, st
 Curve sun_irradiance(const SunSettings& sun, const std::string& folder) {
   if (sun.spectrum == "equal_energy") return Curve({1}, {sun.irradiance_scale}, "sun.spectrum");
   if (sun.spectrum == "solar") {
-    const Columns table = read_columns(phase::data::solar_spectrum_toa(), "solar_spectrum_toa.csv");
+    const Columns table = read_columns(data::solar_spectrum_toa(), "solar_spectrum_toa.csv");
     std::vector<double> nm = table.named("wavelength_nm");
     for (double& air_nm : nm) air_nm *= phase::air_index(air_nm);  // the table is in air
     return scaled(std::move(nm), table.named("irradiance"), sun.irradiance_scale, "solar_spectrum_toa.csv");
