@@ -1,0 +1,92 @@
+# Shows that check_layers.cmake fails where it should, and only there: each case is a small tree with
+# one file, written to the build folder.
+#
+#   cmake -D WORK=<empty folder> -P tests/check_layers_test.cmake
+
+cmake_minimum_required(VERSION 3.25)
+set(cases 0)
+set(failures 0)
+
+# Runs the check on a tree that holds `text` in `file`; sets `result` and `output`.
+macro(run_check file text)
+  file(REMOVE_RECURSE "${WORK}")
+  file(MAKE_DIRECTORY "${WORK}/phase")
+  file(WRITE "${WORK}/${file}" "${text}")
+  execute_process(COMMAND ${CMAKE_COMMAND} -D ROOT=${WORK} -P ${CMAKE_CURRENT_LIST_DIR}/check_layers.cmake
+    RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  math(EXPR cases "${cases} + 1")
+endmacro()
+
+# The line stands fourth in the file and must be named with the rule.
+macro(rejects file line rule)
+  run_check("${file}" "#pragma once\n\n#include <vector>\n${line}\n")
+  string(FIND "${output}" "${file}:4: " place)
+  string(FIND "${output}" "${rule}" reason)
+  if(result EQUAL 0 OR place EQUAL -1 OR reason EQUAL -1)
+    message("${file} with ${line}\n  must be rejected at line 4: ${rule}\n  but: ${output}")
+    math(EXPR failures "${failures} + 1")
+  endif()
+endmacro()
+
+macro(accepts file line)
+  run_check("${file}" "#pragma once\n\n#include <vector>\n${line}\n")
+  if(NOT result EQUAL 0)
+    message("${file} with ${line}\n  must be accepted, but: ${output}")
+    math(EXPR failures "${failures} + 1")
+  endif()
+endmacro()
+
+# between rooms
+rejects(phase/base/a.h "#include \"media/space/ray.h\"" "phase/base may not include media/space")
+rejects(media/medium/a.cpp "#include \"src/light/sun.h\"" "media/medium may not include src/light")
+rejects(src/render/a.cpp "#include \"tools/command.h\"" "src/render may not include tools")
+rejects(tools/a.cpp "#include \"tests/statistics/cells.h\"" "tools may not include tests")
+accepts(tools/a.cpp "#include \"src/render/render.h\"")
+accepts(src/scene/a.h "#include \"media/author/rain.h\"")
+# between folders
+rejects(phase/optics/a.h "#include \"phase/particle/mie.h\"" "phase/optics may not include phase/particle")
+accepts(phase/particle/a.h "#include \"phase/optics/fresnel.h\"")
+rejects(media/grid/a.h "#include \"phase/species/species.h\"" "media/grid may not include phase/species")
+rejects(media/medium/a.cpp "#include \"media/author/rain.h\"" "media/medium may not include media/author")
+rejects(media/author/a.cpp "#include \"media/medium/medium.h\"" "media/author may not include media/medium")
+rejects(src/light/a.h "#include \"src/camera/camera.h\"" "src/light may not include src/camera")
+rejects(src/film/a.h "#include \"media/medium/medium.h\"" "src/film may not include media/medium")
+rejects(src/material/a.h "#include \"src/shape/hit.h\"" "src/material may not include src/shape")
+accepts(src/shape/a.h "#include \"src/material/material.h\"")
+rejects(src/scene/a.h "#include \"src/integrator/integrator.h\"" "src/scene may not include src/integrator")
+accepts(src/analysis/a.h "#include \"src/film/image.h\"")
+accepts(phase/optics/a.cpp "#include \"phase/data/embedded.h\"")
+rejects(src/film/a.cpp "#include \"phase/data/embedded.h\"" "src/film may not include phase/data")
+# packages
+rejects(phase/optics/a.h "#include <Imath/ImathVec.h>" "Imath stays in phase/base")
+rejects(media/grid/a.h "#include <openvdb/openvdb.h>" "OpenVDB stays in sources of media/grid")
+accepts(media/grid/a.cpp "#include <openvdb/openvdb.h>")
+rejects(media/medium/a.cpp "#include <openvdb/openvdb.h>" "OpenVDB stays in sources of media/grid")
+accepts(media/medium/a.h "#include <nanovdb/NanoVDB.h>")
+rejects(src/render/a.h "#include <tbb/parallel_for.h>" "TBB in sources")
+accepts(src/render/a.cpp "#  include <tbb/parallel_for.h>")
+rejects(src/film/film.cpp "#include <OpenImageIO/imageio.h>" "OpenImageIO stays in src/film/image_file.cpp")
+rejects(phase/species/a.cpp "#include <netcdf.h>" "NetCDF stays in phase/species/species_file.cpp")
+rejects(phase/settings/keys.cpp "#include <toml++/toml.h>" "the TOML parser stays in")
+rejects(src/render/a.cpp "#include <CLI/CLI.hpp>" "the option parser stays in tools")
+rejects(phase/base/a.cpp "#include <boost/math/special_functions.hpp>" "no room uses this package")
+accepts(phase/base/a.cpp "#include <sys/mman.h>")
+accepts(tests/phase/base/a_test.cpp "#include <boost/math/special_functions.hpp>")
+# form
+rejects(phase/optics/a.cpp "#include \"fresnel.h\"" "from the root of the repository")
+rejects(phase/optics/a.cpp "#include \"../base/error.h\"" "from the root of the repository")
+rejects(phase/optics/a.cpp "#include <phase/base/error.h>" "with quotes")
+rejects(tests/phase/base/a_test.cpp "#include \"base.h\"" "from the root of the repository")
+rejects(phase/base/a.cpp "using namespace std" "no using namespace")
+rejects(tests/phase/a.cpp "  using namespace arcus;" "no using namespace")
+accepts(phase/base/a.cpp "// using namespace std would hide where a name comes from")
+run_check(phase/utilities/a.h "#pragma once\n")
+if(result EQUAL 0)
+  message("phase/utilities: a folder without a place in the order must be rejected")
+  math(EXPR failures "${failures} + 1")
+endif()
+
+if(failures GREATER 0)
+  message(FATAL_ERROR "check_layers_test: ${failures} of ${cases} cases failed")
+endif()
+message("check_layers_test: ${cases} cases as they should be")
