@@ -1,0 +1,117 @@
+// The layer of tests/published/slab_*.csv, traced: every radiance within the error it states and 0.5 %, and what comes
+// in comes out. Minutes of work in all: labelled slow.
+
+#include <gtest/gtest.h>
+
+#include <tbb/parallel_for.h>
+
+#include "phase/base/curve.h"
+#include "tests/src/integrator/slab.h"
+#include "tests/statistics/seed.h"
+#include "tests/statistics/students_t.h"
+
+namespace arcus::render {
+namespace {
+
+using statistics::Moments;
+
+constexpr int tasks = 64;  // fixed, so that the numbers do not depend on the threads
+
+/// Runs sample(random) count times and gathers its values, in an order that does not depend on threads.
+template <class Sample>
+Moments gathered(int count, const Sample& sample) {
+  std::vector<statistics::Batches> parts(tasks, statistics::Batches(100));
+  tbb::parallel_for(0, tasks, [&](int task) {
+    for (int i = 0; i < count / tasks; ++i) {
+      Random random(statistics::test_seed(), static_cast<std::uint64_t>(task), static_cast<std::uint32_t>(i));
+      parts[static_cast<std::size_t>(task)].add(sample(random));
+    }
+  });
+  // Equal numbers of batches: the parts' means are again independent numbers of one distribution.
+  Moments moments;
+  for (const auto& part : parts) moments.add(part.means().mean());
+  return moments;
+}
+
+Moments radiance(const Scene& scene, double view_cosine, double azimuth_deg, int count) {
+  const VolumePath integrator(scene, 1000000);
+  return gathered(count, [&](Random& random) {
+    const Wavelengths wavelengths = draw_wavelengths(random.uniform_double());
+    const FirstNumbers first{0.5, 0.5, 0.5, random.uniform_double(), random.uniform_double()};
+    return integrator.radiance(slab_ray(view_cosine, azimuth_deg), wavelengths, first, random).mean();
+  });
+}
+
+/// Diffuse flux through a face per irradiance on the layer: view cosines with density 2μ, all azimuths.
+Moments flux(const Scene& scene, double side, double sun_cosine, int count) {
+  const VolumePath integrator(scene, 1000000);
+  return gathered(count, [&](Random& random) {
+    // The few rays that look straight into the sun are drawn anew: the direct beam is known.
+    media::Ray ray;
+    do ray = slab_ray(side * std::sqrt(1 - random.uniform_double()), 360 * random.uniform_double());
+    while (scene.sun.density_per_sr(ray.direction) > 0);
+    const Wavelengths wavelengths = draw_wavelengths(random.uniform_double());
+    const FirstNumbers first{0.5, 0.5, 0.5, random.uniform_double(), random.uniform_double()};
+    return integrator.radiance(ray, wavelengths, first, random).mean() * pi / sun_cosine;
+  });
+}
+
+struct Row {
+  Slab slab;
+  double view_cosine, azimuth_deg, radiance_per_sr;
+};
+
+std::vector<Row> rows(const std::string& file, double side) {
+  const Columns table = read_columns_file(std::string(PUBLISHED_DIR) + "/" + file);
+  std::vector<Row> result;
+  for (std::size_t i = 0; i < table.columns[0].size(); ++i) {
+    const auto column = [&](const char* name) { return table.named(name)[i]; };
+    result.push_back({{column("asymmetry"), column("albedo"), column("optical_depth"), column("sun_zenith_deg")},
+                      side * column("view_cosine"), column("azimuth_deg"), column("radiance_per_sr")});
+  }
+  return result;
+}
+
+/// The views held against the reference: one straight, one oblique, for the sun at 60°.
+bool is_chosen(const Row& row) {
+  const double mu = std::fabs(row.view_cosine);
+  return row.slab.sun_zenith_deg == 60 && ((mu == 1 && row.azimuth_deg == 0) || (mu == 0.5 && row.azimuth_deg == 180) ||
+                                           (mu == 0.7 && row.azimuth_deg == 90));
+}
+
+void compare(const std::vector<Row>& table) {
+  int compared = 0;
+  for (const Row& row : table) compared += is_chosen(row);
+  ASSERT_GE(compared, 24);
+  for (const Row& row : table) {
+    if (!is_chosen(row)) continue;
+    const Scene scene = slab_scene(row.slab);
+    const Moments found = radiance(scene, row.view_cosine, row.azimuth_deg, 640000);
+    const auto place = testing::Message() << "g " << row.slab.asymmetry << " albedo " << row.slab.albedo << " tau "
+                                          << row.slab.optical_depth << " view " << row.view_cosine << " azimuth "
+                                          << row.azimuth_deg << ": " << found.mean() << " +- " << found.standard_error()
+                                          << ", reference " << row.radiance_per_sr;
+    EXPECT_TRUE(statistics::mean_is(found, row.radiance_per_sr, {.comparisons = compared})) << place;
+    EXPECT_NEAR(found.mean() / row.radiance_per_sr, 1, 0.005) << place;
+    std::cout << place << "  z " << (found.mean() - row.radiance_per_sr) / found.standard_error() << '\n';
+  }
+}
+
+}  // namespace
+
+TEST(Slab, ReflectedRadiancesMeetTheReference) { compare(rows("slab_reflected.csv", 1)); }
+
+TEST(Slab, TransmittedRadiancesMeetTheReference) { compare(rows("slab_transmitted.csv", -1)); }
+
+TEST(Slab, WhatComesInGoesOut) {
+  for (const double tau : {1.0, 5.0, 20.0}) {
+    const Slab slab{.asymmetry = 0.85, .albedo = 1, .optical_depth = tau, .sun_zenith_deg = 60};
+    const Scene scene = slab_scene(slab);
+    const Moments up = flux(scene, 1, 0.5, 640000), down = flux(scene, -1, 0.5, 640000);
+    const double error = std::hypot(up.standard_error(), down.standard_error());
+    EXPECT_NEAR(up.mean() + down.mean() + std::exp(-tau / 0.5), 1, 3 * error) << "tau " << tau;
+    EXPECT_LT(error, 0.005);
+  }
+}
+
+}  // namespace arcus::render

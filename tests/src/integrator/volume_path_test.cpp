@@ -1,0 +1,118 @@
+#include "src/integrator/volume_path.h"
+
+#include <gtest/gtest.h>
+
+#include "media/medium/scatterer.h"
+#include "media/tracking/collision_walk.h"
+#include "tests/src/integrator/slab.h"
+#include "tests/statistics/seed.h"
+#include "tests/statistics/students_t.h"
+
+namespace arcus::render {
+namespace {
+
+using statistics::mean_is;
+using statistics::Moments;
+
+/// Samples of the radiance along one ray, each the mean over its four wavelengths.
+Moments traced(const Scene& scene, const media::Ray& ray, int count, long long max_bounces = 1000000) {
+  const VolumePath integrator(scene, max_bounces);
+  Moments moments;
+  for (int i = 0; i < count; ++i) {
+    const auto sample = static_cast<std::uint32_t>(i);
+    Random random(statistics::test_seed(), 0, sample);
+    const Wavelengths wavelengths = draw_wavelengths(random.uniform_double());
+    const FirstNumbers first{0.5, 0.5, 0.5, random.uniform_double(), random.uniform_double()};
+    moments.add(integrator.radiance(ray, wavelengths, first, random).mean());
+  }
+  return moments;
+}
+
+/// The same without ever asking the sun: paths must hit its disc by chance.
+Moments traced_by_chance(const Scene& scene, const media::Ray& ray, int count) {
+  Moments moments;
+  for (int i = 0; i < count; ++i) {
+    Random random(statistics::test_seed(1), 0, static_cast<std::uint32_t>(i));
+    const Wavelengths wavelengths = draw_wavelengths(random.uniform_double());
+    media::Ray path = ray;
+    double weight = 1;
+    for (;;) {
+      media::CollisionWalk walk(*scene.medium, path, wavelengths, random);
+      media::Collision collision;
+      bool collided = false;
+      while (!collided && walk.next(collision))
+        collided = random.uniform() * collision.majorant_per_m < collision.extinction_per_m[0];
+      if (collided) {
+        const auto scatterer = scene.medium->scatterer(collision, wavelengths, random.uniform());
+        path = {collision.position_m, scatterer.phase.draw(path.direction, wavelengths, random).outgoing};
+        continue;
+      }
+      const auto hit = scene.surfaces.nearest_hit(path);
+      if (!hit) break;
+      weight *= hit->material->albedo();
+      path = {hit->position_m, hit->material->draw(hit->normal, random.uniform_double(), random.uniform_double())};
+    }
+    moments.add(weight * scene.sun.radiance(path.direction, wavelengths).mean());
+  }
+  return moments;
+}
+
+}  // namespace
+
+TEST(VolumePath, FurnaceWithoutAbsorptionShowsNothing) {
+  for (const double g : {0.0, 0.85, -0.4}) {
+    const Scene scene = slab_scene({.asymmetry = g, .optical_depth = 5}, 1.0, 0.0);
+    for (const double view : {1.0, 0.3, -0.7}) {
+      const Moments found = traced(scene, slab_ray(view, 40), 2000);
+      EXPECT_NEAR(found.mean(), 1, 1e-5);  // every single path brings exactly the sky
+      EXPECT_LT(found.variance(), 1e-8);
+    }
+  }
+}
+
+TEST(VolumePath, SingleScatteringHasItsClosedForm) {
+  // L = E p μ0/(μ + μ0) (1 − exp(−τ (1/μ + 1/μ0))) from above.
+  const double tau = 0.7, mu = 0.6, mu0 = 0.5;
+  const Scene scene = slab_scene({.optical_depth = tau});
+  const double expected = mu0 / (mu + mu0) * (1 - std::exp(-tau * (1 / mu + 1 / mu0))) / (4 * pi);
+  const Moments found = traced(scene, slab_ray(mu, 77), 300000, 1);
+  EXPECT_TRUE(mean_is(found, expected));
+  EXPECT_FALSE(mean_is(found, expected * 1.02));
+}
+
+TEST(VolumePath, NoBouncesShowOnlyWhatIsSeenDirectly) {
+  const Scene scene = slab_scene({.optical_depth = 1.2}, 3.0);
+  EXPECT_TRUE(mean_is(traced(scene, slab_ray(1, 0), 200000, 0), 3 * std::exp(-1.2)));
+}
+
+TEST(VolumePath, SunSeenThroughTheLayerIsDimmedByIt) {
+  const double tau = 1, zenith_deg = 60;
+  const Scene scene = slab_scene({.albedo = 0, .optical_depth = tau, .sun_zenith_deg = zenith_deg});
+  const Scene clear = slab_scene({.albedo = 0, .optical_depth = 0, .sun_zenith_deg = zenith_deg});
+  const media::Ray ray{Vec3(0, 0, 0), scene.sun.to_centre()};
+  const double bare = traced(clear, ray, 20000, 0).mean();
+  EXPECT_NEAR(traced(scene, ray, 100000, 0).mean() / bare, std::exp(-2 * tau), 0.01 * std::exp(-2 * tau) + 0.004);
+}
+
+TEST(VolumePath, WideSunIsFoundEquallyByAskingAndByChance) {
+  media::Component ball;
+  ball.box = media::Box{Vec3(-10, -10, -10), Vec3(10, 10, 10)};
+  ball.extinction_scale = 0.2f;
+  ball.species = std::make_shared<phase::Species>(phase::PhaseFunction(phase::HenyeyGreenstein(0.95)), 0.0);
+  const std::vector<media::Component> components{ball};
+  for (const double radius_deg : {10.0, 60.0}) {
+    const SunSettings sun{.azimuth_deg = 0, .elevation_deg = 70, .angular_radius_deg = radius_deg,
+                          .spectrum = "equal_energy"};
+    const Scene scene{.medium = std::make_unique<media::Medium>(components),
+                      .sun = Sun(sun, sun_irradiance(sun, "")),
+                      .sky = Sky({}),
+                      .surfaces = Surfaces({{"ground", {"plane", -20}, {"matte", 0.5}}}),
+                      .camera = nullptr};
+    const media::Ray ray{Vec3(0, 0, -15), normalize(Vec3(0.1, 0.2, 1))};
+    const Moments asked = traced(scene, ray, 100000), chance = traced_by_chance(scene, ray, 300000);
+    EXPECT_TRUE(statistics::means_agree(asked, chance, {.comparisons = 2})) << "radius " << radius_deg;
+    EXPECT_LT(chance.standard_error(), 0.03 * chance.mean());
+  }
+}
+
+}  // namespace arcus::render
