@@ -1,18 +1,14 @@
 #include "phase/function/wavelength_interpolation.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-
-#include "phase/function/half_angle.h"
 
 namespace arcus::phase {
 
 namespace {
 
-/// Four neighbouring nodes and their weights (cubic Lagrange; fewer nodes where the table has fewer).
+/// Neighbouring nodes, four where there are as many, and the weights of the polynomial through them (Lagrange).
 struct Stencil {
   int first = 0, count = 1;
   double weight[4] = {1, 0, 0, 0};
@@ -33,58 +29,94 @@ Stencil stencil_at(const std::vector<double>& nodes, double x) {
   return stencil;
 }
 
+std::vector<float> clipped_rows(const ScatteringTable& table, int size, bool clip) {
+  const std::size_t angles = table.scattering_angle_deg.size(), wavelengths = table.wavelength_nm.size();
+  std::vector<float> rows(table.p11.begin() + table.first(size, 0),
+                          table.p11.begin() + table.first(size, 0) + wavelengths * angles);
+  for (std::size_t j = 0; j < wavelengths; ++j)
+    if (clip && table.forward_fraction[table.row(size, j)] > 0)
+      clip_forward(table.scattering_angle_deg, table.forward_angle_deg, rows.data() + j * angles);
+  return rows;
+}
+
+bool keeps_lobe(const ScatteringTable& table, int size, bool clip) {
+  for (std::size_t j = 0; j < table.wavelength_nm.size(); ++j)
+    if (clip && table.forward_fraction[table.row(size, j)] > 0) return false;
+  return true;
+}
+
+/// Derivative at every node by the parabola through it and its neighbours.
+void set_slopes(const std::vector<double>& x, const float* y, float* slope) {
+  const int n = static_cast<int>(x.size());
+  for (int i = 1; i + 1 < n; ++i) {
+    const double a = x[i] - x[i - 1], b = x[i + 1] - x[i];
+    slope[i] = static_cast<float>(((y[i] - y[i - 1]) / a * b + (y[i + 1] - y[i]) / b * a) / (a + b));
+  }
+  slope[0] = slope[n - 1] = 0;  // an even function of the angle from either end
+}
+
 }  // namespace
 
-FineRows interpolate_wavelengths(const ScatteringTable& table, bool clip, double step_nm) {
-  assert(step_nm > 0);
-  const auto& coarse = table.wavelength_nm;
-  const auto& angle_deg = table.scattering_angle_deg;
-  const int sizes = static_cast<int>(table.size_um.size()), angles = static_cast<int>(angle_deg.size());
-  const int nodes = static_cast<int>(coarse.size());
-  FineRows rows;
-  const double range = coarse.back() - coarse.front();
-  rows.wavelength_count = std::max(2, static_cast<int>(std::ceil(range / step_nm - 1e-9)) + 1);
-  rows.first_wavelength_nm = coarse.front();
-  rows.step_nm = range > 0 ? range / (rows.wavelength_count - 1) : step_nm;
-  const int fine = rows.wavelength_count;
-  rows.value_per_sr.resize(static_cast<std::size_t>(sizes) * angles * fine);
+WavelengthInterpolation::WavelengthInterpolation(const ScatteringTable& table, int size, bool clip)
+    : angle_deg_(table.scattering_angle_deg),
+      wavelength_nm_(table.wavelength_nm),
+      values_(clipped_rows(table, size, clip)),
+      tracks_(angle_deg_, wavelength_nm_, values_, table.size_um[size], keeps_lobe(table, size, clip)),
+      logs_(values_.size()),
+      slopes_(values_.size()) {
+  const std::size_t angles = angle_deg_.size();
+  for (std::size_t j = 0; j < wavelength_nm_.size(); ++j) {
+    const float* row = values(static_cast<int>(j));
+    has_zeros_.push_back(!(*std::min_element(row, row + angles) > 0));
+    if (has_zeros_.back()) continue;
+    for (std::size_t i = 0; i < angles; ++i) logs_[j * angles + i] = std::log(row[i]);
+    set_slopes(angle_deg_, logs_.data() + j * angles, slopes_.data() + j * angles);
+  }
+}
 
-  std::vector<Stencil> stencils;
-  for (int k = 0; k < fine; ++k)
-    stencils.push_back(stencil_at(coarse, std::min(coarse.back(), coarse.front() + k * rows.step_nm)));
+void WavelengthInterpolation::evaluate(double wavelength_nm, std::span<float> p11) const {
+  const int angles = static_cast<int>(angle_deg_.size());
+  assert(static_cast<int>(p11.size()) == angles);
+  wavelength_nm = std::clamp(wavelength_nm, wavelength_nm_.front(), wavelength_nm_.back());
+  const int upper = static_cast<int>(std::lower_bound(wavelength_nm_.begin(), wavelength_nm_.end(), wavelength_nm) -
+                                     wavelength_nm_.begin());
+  if (wavelength_nm_[upper] == wavelength_nm) {
+    std::copy_n(values(upper), angles, p11.begin());
+    return;
+  }
+  const Stencil stencil = stencil_at(wavelength_nm_, wavelength_nm);
+  bool logarithmic = true;
+  for (int j = 0; j < stencil.count; ++j) logarithmic = logarithmic && !has_zeros_[stencil.first + j];
+  if (!logarithmic) {  // no cubic either: it could go below zero
+    const double a = wavelength_nm_[upper - 1], b = wavelength_nm_[upper];
+    const float share = static_cast<float>((wavelength_nm - a) / (b - a));
+    for (int i = 0; i < angles; ++i) p11[i] = (1 - share) * values(upper - 1)[i] + share * values(upper)[i];
+    return;
+  }
 
-  tbb::parallel_for(0, sizes, [&](int size) {
-    std::vector<float> logs(static_cast<std::size_t>(nodes) * angles);
-    for (int j = 0; j < nodes; ++j) {
-      float* row = logs.data() + static_cast<std::size_t>(j) * angles;
-      std::copy_n(table.p11.data() + table.first(size, j), angles, row);
-      if (clip && table.forward_fraction[table.row(size, j)] > 0)
-        clip_forward(angle_deg, table.forward_angle_deg, row);
-      for (int i = 0; i < angles; ++i) row[i] = std::log(std::max(row[i], 1e-30f));
+  std::vector<double> sum(angles, 0.0), displacement(angles, 0.0);
+  for (int j = 0; j < stencil.count; ++j) {
+    const int node = stencil.first + j;
+    const float* logs = logs_.data() + static_cast<std::size_t>(node) * angles;
+    const float* slopes = slopes_.data() + static_cast<std::size_t>(node) * angles;
+    const double weight = stencil.weight[j];
+    if (!tracks_.anything_moves()) {
+      for (int i = 0; i < angles; ++i) sum[i] += weight * logs[i];
+      continue;
     }
-    float* value = rows.value_per_sr.data() + static_cast<std::size_t>(size) * angles * fine;
-    for (int i = 0; i < angles; ++i)
-      for (int k = 0; k < fine; ++k) {
-        const Stencil& stencil = stencils[k];
-        double sum = 0;
-        for (int j = 0; j < stencil.count; ++j)
-          sum += stencil.weight[j] * logs[static_cast<std::size_t>(stencil.first + j) * angles + i];
-        value[static_cast<std::size_t>(i) * fine + k] = static_cast<float>(std::exp(sum));
-      }
-    std::vector<double> total(fine, 0.0);
-    for (int i = 0; i + 1 < angles; ++i) {
-      const HalfAngle a = half_angle_of_rad(radians(angle_deg[i])), b = half_angle_of_rad(radians(angle_deg[i + 1]));
-      const double width = a.sin2 < 0.5 ? b.sin2 - a.sin2 : a.cos2 - b.cos2;
-      const float* lower = value + static_cast<std::size_t>(i) * fine;
-      for (int k = 0; k < fine; ++k) total[k] += 2 * pi * width * (static_cast<double>(lower[k]) + lower[k + fine]);
+    tracks_.displacements_deg(wavelength_nm, wavelength_nm_[node], displacement);
+    int k = 0;  // interval of the displaced angle; both ascend together
+    for (int i = 0; i < angles; ++i) {
+      const double angle = std::clamp(angle_deg_[i] + displacement[i], 0.0, 180.0);
+      while (k + 2 < angles && angle >= angle_deg_[k + 1]) ++k;
+      while (k > 0 && angle < angle_deg_[k]) --k;
+      // Cubic Hermite between the nodes of the interval.
+      const double width = angle_deg_[k + 1] - angle_deg_[k], t = (angle - angle_deg_[k]) / width;
+      const double rise = logs[k + 1] - logs[k], a = slopes[k] * width, b = slopes[k + 1] * width;
+      sum[i] += weight * (logs[k] + t * (a + t * (3 * rise - 2 * a - b + t * (a + b - 2 * rise))));
     }
-    for (int i = 0; i < angles; ++i)
-      for (int k = 0; k < fine; ++k) {
-        float& v = value[static_cast<std::size_t>(i) * fine + k];
-        v = static_cast<float>(v / total[k]);
-      }
-  });
-  return rows;
+  }
+  for (int i = 0; i < angles; ++i) p11[i] = std::exp(static_cast<float>(sum[i]));
 }
 
 }  // namespace arcus::phase

@@ -1,0 +1,50 @@
+#pragma once
+// How the features of a drop's phase function move with wavelength. Bows shift with the refractive index, their
+// supernumeraries open as wavelength^(2/3) (Airy), the rings of corona and glory as wavelength. Between two wavelengths
+// 10 nm apart the bow of a 1 mm drop moves by its own width, so that values at one fixed angle cannot be interpolated;
+// values along a track can.
+//
+// Tracks are found in the table itself: nothing is assumed about the material. Where a table shows no bow (small
+// particles, other shapes) nothing moves. Tracks only choose where to interpolate; an imperfect one costs accuracy,
+// never consistency.
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace arcus::phase {
+
+class FeatureTracks {
+ public:
+  /// Angles ascending from 0 to 180 [deg]; rows: p11 of one size, [wavelength][angle]; rings_in_front: the forward
+  /// lobe was not clipped, so that its rings are there.
+  FeatureTracks(const std::vector<double>& angle_deg, const std::vector<double>& wavelength_nm,
+                std::span<const float> rows, double size_um, bool rings_in_front);
+
+  bool anything_moves() const { return !mover_.empty(); }
+
+  /// How far what is found at every angle node at `from_nm` has gone at `to_nm` [deg]; smooth in both wavelengths.
+  void displacements_deg(double from_nm, double to_nm, std::span<double> displacement_deg) const;
+
+  /// Angle of the maximum of the first bow (one internal reflection) or the second; NaN-free: found() says if it exists.
+  struct Track {
+    bool found = false;
+    double centre = 0, half_range = 1;   // of t = 1e5 / wavelength²
+    std::array<double, 4> coefficients{};  // of powers of (t − centre)/half_range [deg]
+    double at_nm(double wavelength_nm) const;
+  };
+  const Track& primary() const { return primary_; }
+  const Track& secondary() const { return secondary_; }
+
+ private:
+  /// What moves the surroundings of an angle node: shares of both bows and of the rings.
+  struct Mover {
+    double primary, secondary;                  // share of the bow's own shift
+    double primary_opening, secondary_opening;  // share × angle from the bow's maximum [deg]
+    double ring;                                // share × angle from 0 (or, negative, from 180°) [deg]
+  };
+  std::vector<Mover> mover_;  // [angle]; empty where nothing moves
+  Track primary_, secondary_;
+};
+
+}  // namespace arcus::phase
