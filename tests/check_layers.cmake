@@ -76,7 +76,7 @@ package("^openvdb/" "^media/grid/.*[.]cpp$" "OpenVDB stays in sources of media/g
 package("^nanovdb/" "^media/(grid|medium)/" "NanoVDB stays in media/grid and media/medium")
 package("^OpenImageIO/" "^src/film/image_file[.]cpp$" "OpenImageIO stays in src/film/image_file.cpp")
 package("^embree" "^src/shape/intersector[.]cpp$" "Embree stays in src/shape/intersector.cpp")
-package("^cairo" "^src/analysis/chart[.]cpp$" "Cairo stays in src/analysis/chart.cpp")
+package("^cairo" "^src/analysis/canvas[.]cpp$" "Cairo stays in src/analysis/canvas.cpp")
 package("^CLI/" "^tools/" "the option parser stays in tools")
 
 set(language "^[a-z_0-9]+$")

@@ -1,7 +1,6 @@
 #include "src/analysis/compare.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -88,14 +87,6 @@ std::string number(double x, const char* format = "%.4g") {
   return text;
 }
 
-std::string json_number(double x) { return std::isfinite(x) ? number(x, "%.9g") : "null"; }
-
-std::string json_list(const std::vector<std::string>& names) {
-  std::string text = "[";
-  for (const auto& name : names) text += (text.size() > 1 ? ", \"" : "\"") + name + "\"";
-  return text + "]";
-}
-
 }  // namespace
 
 Comparison compare(const Image& a, const Image& b, std::string_view name_a, std::string_view name_b) {
@@ -121,7 +112,7 @@ Comparison compare(const Image& a, const Image& b, std::string_view name_a, std:
   return result;
 }
 
-std::string text_of(const Comparison& comparison) {
+std::string figures_text(const Comparison& comparison) {
   const std::vector<std::string> header{"channel", "mean A", "mean B", "A - B", "RMSE", "relMSE", "largest",
                                         "at", "rms z", "|z|>3", "mean z"};
   std::vector<std::vector<std::string>> rows{header};
@@ -154,29 +145,6 @@ std::string text_of(const Comparison& comparison) {
   if (std::none_of(comparison.channels.begin(), comparison.channels.end(), [](const auto& c) { return c.noise.has_value(); }))
     text += "no z: both pictures need the channel \"variance\" (film.channels)\n";
   return text;
-}
-
-std::string json_of(const Comparison& comparison) {
-  std::string text = "{\n  \"pixels\": " + std::to_string(comparison.pixels) +
-                     ",\n  \"not_finite\": " + std::to_string(comparison.not_finite) +
-                     ",\n  \"equal\": " + (comparison.is_equal ? "true" : "false") +
-                     ",\n  \"only_a\": " + json_list(comparison.only_a) +
-                     ",\n  \"only_b\": " + json_list(comparison.only_b) + ",\n  \"channels\": {";
-  bool is_first = true;
-  for (const ChannelDifference& c : comparison.channels) {
-    text += std::string(is_first ? "" : ",") + "\n    \"" + c.name + "\": {\"mean_a\": " + json_number(c.mean_a) +
-            ", \"mean_b\": " + json_number(c.mean_b) + ", \"mean_difference\": " + json_number(c.mean_difference) +
-            ", \"rmse\": " + json_number(c.rmse) + ", \"relative_mse\": " + json_number(c.relative_mse) +
-            ", \"largest\": " + json_number(c.largest) + ", \"largest_at\": [" + std::to_string(c.largest_x) + ", " +
-            std::to_string(c.largest_y) + "]";
-    if (c.noise)
-      text += ", \"rms_z\": " + json_number(c.noise->rms_z) + ", \"share_beyond_3\": " +
-              json_number(c.noise->share_beyond_3) + ", \"mean_difference_z\": " +
-              json_number(c.noise->mean_difference_z) + ", \"pixels_with_variance\": " + std::to_string(c.noise->pixels);
-    text += "}";
-    is_first = false;
-  }
-  return text + "\n  }\n}\n";
 }
 
 }  // namespace arcus::render

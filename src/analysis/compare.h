@@ -44,9 +44,7 @@ struct Comparison {
 Comparison compare(const Image& a, const Image& b, std::string_view name_a, std::string_view name_b);
 
 /// The figures as a table for a terminal.
-std::string text_of(const Comparison& comparison);
-/// The figures as JSON.
-std::string json_of(const Comparison& comparison);
+std::string figures_text(const Comparison& comparison);
 
 /// The signed difference of a channel: red where a is brighter, blue where b is, white for none; full colour at
 /// `full` and beyond. Grey where a value is not finite.
