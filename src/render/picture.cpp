@@ -1,0 +1,39 @@
+#include "src/render/picture.h"
+
+#include "phase/base/content_hash.h"
+#include "phase/base/version.h"
+#include "phase/settings/toml_text.h"
+#include "src/scene/picture_metadata.h"
+
+namespace arcus::render {
+
+Picture render_picture(const SceneSettings& settings, const Scene& scene, std::optional<PixelBox> crop,
+                       const RunOptions& options) {
+  const CameraSettings& camera = settings.camera;
+  const PixelBox box = crop.value_or(PixelBox{0, 0, camera.width_px, camera.height_px});
+  const Xyz sun = xyz_of([&](double nm) { return scene.sun.irradiance_curve()(nm); });
+  const ToRgb to_rgb = to_rgb_from_white(white_of(settings.film.white, sun));
+  Film film(camera.width_px, camera.height_px, box, settings.film, to_rgb);
+
+  Picture picture;
+  picture.run = render(scene, settings.render, options, film);
+  picture.image = film.to_image();
+  picture.refused = film.refused();
+  // Under no sun a matte surface under the sky of radiance 1 is the reference.
+  picture.tone = {settings.film.exposure_ev, sun.y > 0 ? sun.y / pi : 1};
+
+  MakingOf making;
+  making.version = version;
+  making.scene_text = text_of(settings);
+  making.scene_hash = content_hash(making.scene_text);
+  making.seed = static_cast<std::uint64_t>(settings.render.seed);
+  making.samples_per_pixel = picture.run.progress.samples_done / static_cast<double>(box.pixels());
+  making.render_seconds = picture.run.progress.seconds;
+  write_making_of(picture.image.metadata, making);
+  write_camera(picture.image.metadata, camera);
+  write_sun(picture.image.metadata,
+            {settings.sun.azimuth_deg, settings.sun.elevation_deg, settings.sun.angular_radius_deg});
+  return picture;
+}
+
+}  // namespace arcus::render
