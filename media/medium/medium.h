@@ -16,6 +16,7 @@
 namespace arcus::media {
 
 class MajorantGrid;
+struct Lookup;
 struct Scatterer;
 
 /// A place where light may be scattered: tentative, because the medium's extinction there is only known to lie below
@@ -47,6 +48,8 @@ class Medium {
   int component_count() const { return static_cast<int>(components_.size()); }
   const Component& component(int k) const { return components_[static_cast<std::size_t>(k)]; }
   const MajorantGrid& majorants() const { return *majorants_; }
+  /// The components made ready for tracking, in the same order.
+  const std::vector<Lookup>& lookups() const { return lookups_; }
 
   /// Extinction at a point, interpolated in full: slow, for quadrature and for looking at what is there [1/m].
   Spectrum extinction_per_m(const Vec3& position_m, const Wavelengths&) const;
@@ -58,8 +61,8 @@ class Medium {
   std::size_t memory_bytes() const;
 
  private:
-  friend class CollisionWalk;
   std::vector<Component> components_;
+  std::vector<Lookup> lookups_;
   std::unique_ptr<MajorantGrid> majorants_;
   Box bounds_m_;
 };

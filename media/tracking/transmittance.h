@@ -14,8 +14,4 @@ namespace arcus::media {
 /// exceed 1 slightly.
 Spectrum ratio_transmittance(const Medium&, const Ray&, const Wavelengths&, Random&);
 
-/// Optical depth along a ray by quadrature, exact to rounding: the ray is cut where it crosses planes of voxels, between
-/// which the interpolated extinction is a cubic polynomial at most. Slow, deterministic, and independent of majorants.
-double optical_depth(const Medium&, const Ray&, double wavelength_nm);
-
 }  // namespace arcus::media
