@@ -80,7 +80,7 @@ package("^cairo" "^src/analysis/canvas[.]cpp$" "Cairo stays in src/analysis/canv
 package("^CLI/" "^tools/" "the option parser stays in tools")
 
 set(language "^[a-z_0-9]+$")
-set(system "^(sys/[a-z_]+|unistd|fcntl|signal|dirent|errno|time|pthread|sched|poll|spawn|immintrin|cpuid)[.]h$")
+set(system "^(sys/[a-z_]+|math|unistd|fcntl|signal|dirent|errno|time|pthread|sched|poll|spawn|immintrin|cpuid)[.]h$")
 
 # ---- reading ----------------------------------------------------------------------------------------
 
