@@ -28,15 +28,15 @@ bool contains(const std::string& text, std::string_view part) { return text.find
 
 TEST(Profile, FindsTheRadiusOfARingInEveryKindOfPicture) {
   for (const auto& camera : {camera_towards_antisolar("perspective", 100, 300, 240),
-                             camera_towards_antisolar("fisheye", 180, 400, 400),
-                             camera_towards_antisolar("equirectangular", 360, 800, 400)}) {
+                             camera_towards_antisolar("fisheye", 180, 320, 320),
+                             camera_towards_antisolar("equirectangular", 360, 640, 320)}) {
     const RingPicture ring{camera};
     const Profile profile = measure_profile(ring.made(), {}, "ring");
     for (std::size_t c = 0; c < 3; ++c) {
       const auto peaks = peaks_of(profile, profile.channels[c]);
       ASSERT_EQ(peaks.size(), 1u) << camera.type;
       EXPECT_NEAR(peaks[0].position, RingPicture::radius_deg(c), 0.02) << camera.type << " bins " << profile.bin_deg;
-      EXPECT_NEAR(peaks[0].prominence, 1, 0.12) << camera.type;  // pixels of 0.45 degrees blur a ring of 0.5
+      EXPECT_NEAR(peaks[0].prominence, 1, 0.16) << camera.type;  // pixels of 0.56 degrees blur a ring of 0.5
     }
     EXPECT_EQ(profile.scattering, Profile::Scattering::supplement);
   }
@@ -52,7 +52,7 @@ TEST(Profile, SectorsOfARingAgreeAndShareThePixels) {
       image, {.bin_deg = 0.5, .from_deg = 30, .to_deg = 50, .sector_from_deg = 0, .sector_to_deg = 180}, "ring");
   ASSERT_EQ(left.angle_deg.size(), right.angle_deg.size());
   for (std::size_t i = 0; i < left.angle_deg.size(); ++i) {
-    EXPECT_NEAR(left.channels[0].mean[i], right.channels[0].mean[i], 0.01);
+    EXPECT_NEAR(left.channels[0].mean[i], right.channels[0].mean[i], 0.02);  // pixels are not equally wide
     EXPECT_NEAR(left.solid_angle_sr[i] + right.solid_angle_sr[i], whole.solid_angle_sr[i], 1e-12);
   }
 }

@@ -33,23 +33,26 @@ struct RingPicture {
     const auto eye = make_camera(camera);
     const Vec3 antisolar = -direction_of(sun.azimuth_deg, sun.elevation_deg);
     for (int y = 0; y < camera.height_px; ++y)
-      for (int x = 0; x < camera.width_px; ++x)
+      for (int x = 0; x < camera.width_px; ++x) {
+        add_mean_over_pixel(*eye, antisolar, x, y, image);
         for (std::size_t c = 0; c < 3; ++c) {
-          image.value(x, y, c) = static_cast<float>(mean_over_pixel(*eye, antisolar, x, y, c) + noise_at(x, y, c));
+          image.value(x, y, c) += static_cast<float>(noise_at(x, y, c));
           if (has_variance) image.value(x, y, 3 + c) = static_cast<float>(noise * noise);
         }
+      }
     return image;
   }
 
  private:
-  double mean_over_pixel(const Camera& eye, const Vec3& antisolar, int x, int y, std::size_t channel) const {
-    constexpr int n = 4;
-    double sum = 0;
+  void add_mean_over_pixel(const Camera& eye, const Vec3& antisolar, int x, int y, Image& image) const {
+    constexpr int n = 3;
     for (int k = 0; k < n * n; ++k) {
       const auto ray = eye.ray(x + (k % n + 0.5) / n, y + (k / n + 0.5) / n);
-      if (ray) sum += value_at(degrees(angle_between_rad(ray->direction, antisolar)), channel);
+      if (!ray) continue;
+      const double angle_deg = degrees(angle_between_rad(ray->direction, antisolar));
+      for (std::size_t c = 0; c < 3; ++c)
+        image.value(x, y, c) += static_cast<float>(value_at(angle_deg, c) / (n * n));
     }
-    return sum / (n * n);
   }
   double noise_at(int x, int y, std::size_t channel) const {
     if (noise == 0) return 0;
