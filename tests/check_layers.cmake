@@ -68,8 +68,8 @@ package("^(oneapi/)?tbb/" "[.]cpp$" "TBB in sources, not in headers")
 package("^toml(plus|[+][+]|[.]hpp)" "^phase/settings/toml_text[.]cpp$"
   "the TOML parser stays in phase/settings/toml_text.cpp")
 package("^netcdf" "^phase/species/species_file[.]cpp$" "NetCDF stays in phase/species/species_file.cpp")
-package("^xxh" "^(phase/species|src/scene|src/render|tools)/.*[.]cpp$"
-  "xxHash in sources of phase/species, src/scene, src/render and tools")
+package("^xxh" "^phase/(base/content_hash|species/[^/]*)[.]cpp$"
+  "xxHash stays in phase/base/content_hash.cpp and sources of phase/species")
 package("^nlohmann/" "^(phase/settings|src/analysis|src/render|tools)/.*[.]cpp$"
   "JSON in sources of phase/settings, src/render, src/analysis and tools")
 package("^openvdb/" "^media/grid/.*[.]cpp$" "OpenVDB stays in sources of media/grid")
