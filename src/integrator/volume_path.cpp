@@ -5,6 +5,12 @@
 #include "media/tracking/transmittance.h"
 
 namespace arcus::render {
+namespace {
+
+/// Expected tentative collisions of a camera ray below which it is split. Above, hardly anything passes straight on.
+constexpr double most_forced_depth = 3;
+
+}  // namespace
 
 struct VolumePath::Path {
   media::Ray ray;
@@ -35,34 +41,63 @@ struct VolumePath::Path {
   }
 };
 
-Spectrum VolumePath::radiance(const media::Ray& camera_ray, const Wavelengths& wavelengths, const FirstNumbers&,
+Spectrum VolumePath::radiance(const media::Ray& camera_ray, const Wavelengths& wavelengths, const FirstNumbers& first,
                               Random& random) const {
   Spectrum total;
   Path path{.ray = camera_ray};
-  do {
+  const auto hit = scene_.surfaces.nearest_hit(path.ray);
+  if (hit) path.ray.farthest_m = hit->distance_m;
+
+  // Thin media: most camera rays would meet nothing. The ray is split in two, the share that meets no tentative
+  // collision and the rest, whose first one is placed by an evenly spread number; their weights add up to 1.
+  const double depth = media::majorant_depth(*scene_.medium, path.ray);
+  if (depth > 0 && depth < most_forced_depth) {
+    Path straight = path;
+    straight.weight *= static_cast<float>(std::exp(-depth));
+    if (pass(straight, hit, wavelengths, random, total)) follow(straight, wavelengths, random, total);
+    path.weight *= static_cast<float>(-std::expm1(-depth));
+    auto walk = media::CollisionWalk::forced(*scene_.medium, path.ray, wavelengths, random, depth, first.collision);
+    if (advance(path, walk, hit, wavelengths, random, total)) follow(path, wavelengths, random, total);
+    return total;
+  }
+  media::CollisionWalk walk(*scene_.medium, path.ray, wavelengths, random);
+  if (advance(path, walk, hit, wavelengths, random, total)) follow(path, wavelengths, random, total);
+  return total;
+}
+
+void VolumePath::follow(Path& path, const Wavelengths& wavelengths, Random& random, Spectrum& total) const {
+  bool goes_on = true;
+  while (goes_on && path.survives_roulette(random)) {
     const auto hit = scene_.surfaces.nearest_hit(path.ray);
     if (hit) path.ray.farthest_m = hit->distance_m;
-
-    bool collided = false;
-    media::Collision collision;
     media::CollisionWalk walk(*scene_.medium, path.ray, wavelengths, random);
-    while (walk.next(collision)) {
-      if (random.uniform() * collision.majorant_per_m < collision.extinction_per_m[0]) {
-        collided = true;
-        break;
-      }
-      path.pass_null_collision(collision);
-    }
+    goes_on = advance(path, walk, hit, wavelengths, random, total);
+  }
+}
 
-    if (!collided && !hit) return total + escaped(path, wavelengths);
-    if (path.bounces++ == max_bounces_) return total;
-    if (collided) {
+bool VolumePath::advance(Path& path, media::CollisionWalk& walk, const std::optional<Hit>& hit,
+                         const Wavelengths& wavelengths, Random& random, Spectrum& total) const {
+  media::Collision collision;
+  while (walk.next(collision)) {
+    if (random.uniform() * collision.majorant_per_m < collision.extinction_per_m[0]) {
+      if (path.bounces++ == max_bounces_) return false;
       scatter(path, collision, wavelengths, random, total);
-    } else {
-      reflect(path, *hit, wavelengths, random, total);
+      return true;
     }
-  } while (path.survives_roulette(random));
-  return total;
+    path.pass_null_collision(collision);
+  }
+  return pass(path, hit, wavelengths, random, total);
+}
+
+bool VolumePath::pass(Path& path, const std::optional<Hit>& hit, const Wavelengths& wavelengths, Random& random,
+                      Spectrum& total) const {
+  if (!hit) {
+    total += escaped(path, wavelengths);
+    return false;
+  }
+  if (path.bounces++ == max_bounces_) return false;
+  reflect(path, *hit, wavelengths, random, total);
+  return true;
 }
 
 Spectrum VolumePath::escaped(const Path& path, const Wavelengths& wavelengths) const {

@@ -8,6 +8,9 @@
 // four led (Wilkie et al., EGSR 2014; Miller, Georgiev and Jarosz, "A null-scattering path integral formulation of
 // light transport", SIGGRAPH 2019). Where a medium is grey the two stay equal and the four share everything.
 
+#include <optional>
+
+#include "media/tracking/collision_walk.h"
 #include "phase/base/random.h"
 #include "src/integrator/sample_points.h"
 #include "src/scene/scene.h"
@@ -25,6 +28,14 @@ class VolumePath {
 
  private:
   struct Path;
+  /// Follows a path until it ends.
+  void follow(Path& path, const Wavelengths& wavelengths, Random& random, Spectrum& total) const;
+  /// Follows a path along its ray to the next collision or else to `hit` or out of the scene. False where it ends.
+  bool advance(Path& path, media::CollisionWalk& walk, const std::optional<Hit>& hit, const Wavelengths& wavelengths,
+               Random& random, Spectrum& total) const;
+  /// What follows where the medium let the path through. False where it ends.
+  bool pass(Path& path, const std::optional<Hit>& hit, const Wavelengths& wavelengths, Random& random,
+            Spectrum& total) const;
   /// Light that arrives where the path has left the scene.
   Spectrum escaped(const Path& path, const Wavelengths& wavelengths) const;
   /// Scatters in the medium: adds sunlight to `total`, turns the path.
