@@ -11,6 +11,7 @@
 #include <memory>
 #include <span>
 
+#include "phase/particle/instructions.h"
 #include "phase/particle/scattering.h"
 
 namespace arcus::phase {
@@ -44,27 +45,45 @@ class MieAngles {
   std::unique_ptr<const Plan> plan_;
 };
 
-/// Which machine code runs. Both give the same bits.
-enum class Instructions { avx2, avx512 };
+/// Up to mie_block_radii spheres of one material at one wavelength: computed at once, then asked for their matrices, a
+/// run of angles at a time, so that who averages over sizes can do so while the numbers are in the cache. Holds the
+/// memory it works in, of which about 1.2 kB times size parameter are touched, for reuse: one object for each thread.
+class MieBlock {
+ public:
+  /// `angles` must outlive the block.
+  explicit MieBlock(const MieAngles& angles, Instructions instructions = best_instructions());
+  ~MieBlock();
+  MieBlock(MieBlock&&) noexcept;
+  MieBlock& operator=(MieBlock&&) noexcept;
 
-/// The best that this processor has.
-Instructions best_instructions();
+  /// size_parameters: x = 2 pi r / wavelength, 1e-3 ... angles.largest_size_parameter(), one to mie_block_radii.
+  /// relative_index: m = n + ik as for mie_sphere; |m| <= 1000.
+  /// Replaces the spheres of the call before. Throws bad_input for values outside these ranges.
+  void compute(std::span<const double> size_parameters, std::complex<double> relative_index);
 
-/// Scattering matrices and efficiencies of spheres of one material at one wavelength.
-///
-/// size_parameters: x = 2 pi r / wavelength, 1e-3 ... angles.largest_size_parameter(), best in ascending order.
-/// relative_index: m = n + ik, as for mie_sphere.
-/// matrix: [radius][element][angle], angle fastest: size_parameters.size() x mie_block_elements x angles.size() numbers
-///   i11 = (|S1|^2 + |S2|^2)/2, i12 = (|S2|^2 - |S1|^2)/2, i33 = Re(S2 S1*), i34 = Im(S2 S1*).
-///   The phase function is i11 / (pi x^2 Q_sca) per steradian.
+  /// Of the spheres in the order of their size parameters.
+  std::span<const SphereEfficiencies> efficiencies() const;
+
+  /// Scattering matrices at the angles first ... first + count - 1 of MieAngles.
+  /// matrix: [radius][element][angle], angle fastest, radii x mie_block_elements x count numbers:
+  ///   i11 = (|S1|^2 + |S2|^2)/2, i12 = (|S2|^2 - |S1|^2)/2, i33 = Re(S2 S1*), i34 = Im(S2 S1*).
+  /// The phase function is i11 / (pi x^2 Q_sca) per steradian. Fastest with multiples of 64 angles.
+  void matrix(std::size_t first, std::size_t count, std::span<float> matrix) const;
+
+ private:
+  struct Memory;
+  std::unique_ptr<Memory> memory_;
+};
+
+/// Scattering matrices and efficiencies of any number of spheres of one material at one wavelength, in blocks of
+/// mie_block_radii from the start of the list, best in order of size. Arguments as for MieBlock.
+/// matrix: [radius][element][angle], angle fastest: size_parameters.size() x mie_block_elements x angles.size() numbers.
 /// efficiencies: [radius].
 ///
-/// Accuracy against mie_sphere: efficiencies 1e-9; amplitudes 1e-5 of the largest |S1|, |S2| within half an oscillation,
-/// 90 degrees/x, of the angle.
-/// Runs in the calling thread and can be called from many threads at once. The numbers of a sphere depend on its block
-/// of mie_block_radii, counted from the start of the call, so split long lists at multiples of it; in that way they
-/// don't depend on the number of threads.
-/// Throws bad_input for values outside these ranges.
+/// Accuracy against mie_sphere: efficiencies 1e-9, relative; matrix 5e-6 of the largest |S1|^2 and |S2|^2 within half an
+/// oscillation, 90 degrees/x, of the angle, 1e-6 up to x = 1e4.
+/// Can be called from many threads at once. The last bits of a sphere's numbers depend on its neighbours in the
+/// block: who splits a list among threads splits at multiples of mie_block_radii, and gets the same bits for any number.
 void mie_block(const MieAngles& angles, std::span<const double> size_parameters, std::complex<double> relative_index,
                std::span<float> matrix, std::span<SphereEfficiencies> efficiencies,
                Instructions instructions = best_instructions());
