@@ -1,11 +1,12 @@
 // arcus phase: phase functions, from one sphere to the tables that clouds carry. The plots are in phase_plot.cpp.
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 
@@ -13,8 +14,11 @@
 #include "phase/base/units.h"
 #include "phase/base/whole_file.h"
 #include "phase/particle/mie.h"
+#include "phase/settings/toml_text.h"
 #include "phase/species/evaluate.h"
 #include "phase/species/make_species.h"
+#include "phase/species/species_cache.h"
+#include "phase/species/species_file.h"
 #include "tools/command.h"
 #include "tools/number_list.h"
 
@@ -97,16 +101,21 @@ void run_compute(const ComputeCommand& command) {
   const phase::Recipe recipe = phase::recipe_from_file(command.recipe);
   if (!command.output.empty()) check_writable(command.output);
   phase::SpeciesOptions options;
-  options.cache_folder = command.cache_folder;
-  if (!command.quiet) options.log = [](std::string_view text) { std::cerr << text << '\n'; };
-  const std::string cached = phase::cached_table(recipe, options);
-  if (command.output.empty()) {
-    std::cout << cached << '\n';
-    return;
+  options.cache_folder = command.cache_folder.empty() ? phase::default_cache_folder() : command.cache_folder;
+  if (!command.quiet) {
+    options.log = [](std::string_view text) { std::cerr << text << '\n'; };
+    if (::isatty(STDERR_FILENO) == 1)
+      options.progress = [](double share) { std::fprintf(stderr, "\r%3.0f %%%s", 100 * share, share >= 1 ? "\n" : ""); };
   }
-  WholeFile file(command.output);
-  std::filesystem::copy_file(cached, file.temporary_path(), std::filesystem::copy_options::overwrite_existing);
-  file.commit();
+  phase::SpeciesFile file;
+  file.table = phase::table_of(recipe, options);
+  file.recipe = text_of(recipe);
+  file.recipe_id = phase::recipe_id(recipe);
+  if (command.output.empty()) {
+    std::cout << phase::SpeciesCache(options.cache_folder).path_of(file.recipe_id) << '\n';
+  } else {
+    phase::write_species_file(command.output, file);
+  }
 }
 
 }  // namespace

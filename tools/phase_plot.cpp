@@ -8,6 +8,7 @@
 #include "phase/base/error.h"
 #include "phase/base/whole_file.h"
 #include "phase/species/make_species.h"
+#include "phase/species/species_cache.h"
 #include "phase/settings/number_text.h"
 #include "src/analysis/phase_chart.h"
 #include "src/light/sun.h"
@@ -45,7 +46,7 @@ void run(const PlotCommand& command) {
 
   phase::SpeciesOptions options;
   options.sun_angular_radius_rad = radians(command.sun_radius_deg);
-  options.cache_folder = command.cache_folder;
+  options.cache_folder = command.cache_folder.empty() ? phase::default_cache_folder() : command.cache_folder;
   if (!command.quiet) options.log = [](std::string_view text) { std::cerr << text << '\n'; };
   const auto species = phase::make_species(recipe, options);
   write_chart(command.output, phase_chart(*species, render::sun_irradiance({}, ""), settings));

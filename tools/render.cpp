@@ -10,6 +10,7 @@
 
 #include "phase/base/error.h"
 #include "phase/base/whole_file.h"
+#include "phase/species/species_cache.h"
 #include "src/film/image_file.h"
 #include "src/render/picture.h"
 #include "tools/command.h"
@@ -62,7 +63,7 @@ void run(const RenderCommand& command) {
     if (!command.quiet) std::cerr << text << '\n';
   };
   render::BuildOptions build;
-  build.cache_folder = command.cache_folder;
+  build.cache_folder = command.cache_folder.empty() ? phase::default_cache_folder() : command.cache_folder;
   build.log = say;
   const render::Scene scene = render::build_scene(settings, build);
 

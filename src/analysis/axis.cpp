@@ -50,7 +50,8 @@ std::string decimal_label(double value, double step) {
 
 }  // namespace
 
-Scale::Scale(const Axis& axis, std::span<const double> values, bool is_tight) : is_logarithmic_(axis.is_logarithmic) {
+Scale::Scale(const Axis& axis, std::span<const double> values, bool is_tight)
+    : is_logarithmic_(axis.is_logarithmic) {
   double least = std::numeric_limits<double>::infinity(), most = -least;
   for (const double v : values) {
     if (!std::isfinite(v) || (is_logarithmic_ && v <= 0)) continue;
@@ -63,8 +64,15 @@ Scale::Scale(const Axis& axis, std::span<const double> values, bool is_tight) : 
   }
   if (is_logarithmic_) {
     least = std::max(least, most * std::pow(10, -axis.most_decades));
-    low_ = is_tight ? least : std::pow(10, std::floor(std::log10(least) + 1e-9));
-    high_ = is_tight ? most : std::pow(10, std::ceil(std::log10(most) - 1e-9));
+    low_ = least;
+    high_ = most;
+    if (!is_tight) {
+      // Whole decades, unless there are so few that they would leave much of the axis empty.
+      const bool is_short = std::log10(most / least) < 2;
+      low_ = is_short ? 1 / round_step(1 / (least * (1 + 1e-9)))
+                      : std::pow(10, std::floor(std::log10(least) + 1e-9));
+      high_ = is_short ? round_step(most) : std::pow(10, std::ceil(std::log10(most) - 1e-9));
+    }
     if (!(low_ < high_)) high_ = 10 * low_;
   } else if (is_tight) {
     low_ = least;
@@ -76,6 +84,8 @@ Scale::Scale(const Axis& axis, std::span<const double> values, bool is_tight) : 
     const double step = most > least ? step_of(most - least, 6) : 1;
     low_ = step * std::floor(least / step + 1e-9);
     high_ = step * std::ceil(most / step - 1e-9);
+    if (most > high_ - 0.02 * (high_ - low_) && most != 0)
+      high_ += 0.5 * step;  // nothing lies on the frame
   }
   low_ = axis.low.value_or(low_);
   high_ = axis.high.value_or(high_);
@@ -107,9 +117,12 @@ std::vector<Tick> Scale::ticks(int wanted) const {
       // With little more than a decade, powers of ten alone would leave an axis without numbers.
       const bool is_power = digit == 1 && e % every == 0;
       const bool is_between = decades < 1.7 && (digit == 2 || digit == 5);
-      if (is_between || (is_power && decades < 1.7)) ticks.push_back({value, decimal_label(value, value)});
-      else if (is_power) ticks.push_back({value, power_label(e)});
-      else if (every == 1) ticks.push_back({value, ""});
+      if (is_between || (is_power && decades < 1.7))
+        ticks.push_back({value, decimal_label(value, value)});
+      else if (is_power)
+        ticks.push_back({value, power_label(e)});
+      else if (every == 1)
+        ticks.push_back({value, ""});
     }
   }
   return ticks;

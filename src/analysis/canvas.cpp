@@ -129,7 +129,8 @@ std::string Canvas::png() const {
   };
   cairo_surface_flush(sheet_->surface);
   const cairo_status_t status = cairo_surface_write_to_png_stream(sheet_->surface, append, &bytes);
-  if (status != CAIRO_STATUS_SUCCESS) throw cannot("cannot draw a chart", cairo_status_to_string(status));
+  if (status != CAIRO_STATUS_SUCCESS)
+    throw cannot("cannot draw a chart", cairo_status_to_string(status));
   return bytes;
 }
 

@@ -21,7 +21,7 @@ struct TextStyle {
   double size = 12;
   Ink ink{0.2, 0.2, 0.2};
   bool is_bold = false;
-  double across = 0;   ///< which point of the text lies at the position: 0 left, 0.5 middle, 1 right
+  double across = 0;  ///< which point of the text lies at the position: 0 left, 0.5 middle, 1 right
   double turned_deg = 0;  ///< counterclockwise
   bool has_halo = false;  ///< a white rim, for text over lines
 };
@@ -33,8 +33,8 @@ struct LineStyle {
   bool is_dashed = false;
 };
 
-/// A white sheet; positions in points from the top left corner, y down. A point is two pixels wide, so that the picture
-/// is sharp on dense screens.
+/// A white sheet; positions in points from the top left corner, y down. A point is two pixels wide,
+/// so that the picture is sharp on dense screens.
 class Canvas {
  public:
   Canvas(double width, double height);
@@ -52,7 +52,8 @@ class Canvas {
   /// Nothing is drawn outside of the rectangle from now on, until unclip().
   void clip(Point low, Point high);
   void unclip();
-  /// The sheet as the bytes of a PNG file. The same drawing gives the same bytes on one machine; other fonts, other bytes.
+  /// The sheet as the bytes of a PNG file. The same drawing gives the same bytes on one machine;
+  /// other fonts, other bytes.
   std::string png() const;
 
  private:

@@ -9,12 +9,13 @@
 
 namespace arcus::render {
 
-inline constexpr Ink dark_ink{0.15, 0.15, 0.17}, grey_ink{0.42, 0.42, 0.45}, grid_ink{0.88, 0.88, 0.90};
+inline constexpr Ink dark_ink{0.15, 0.15, 0.17}, grey_ink{0.42, 0.42, 0.45},
+    grid_ink{0.88, 0.88, 0.90};
 
-/// Draws title, subtitle and the legend of the lines that have a label, in rows that fit the width. Gives the height that
-/// is used.
-double draw_heading(Canvas& canvas, double width, const std::string& title, const std::string& subtitle,
-                    std::span<const Line> lines);
+/// Draws title, subtitle and the legend of the lines that have a label, in rows that fit the width.
+/// Gives the height that is used.
+double draw_heading(Canvas& canvas, double width, const std::string& title,
+                    const std::string& subtitle, std::span<const Line> lines);
 
 /// Draws a line through what has a place, parted where there is none.
 template <class PlaceOf>

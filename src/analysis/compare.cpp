@@ -14,9 +14,9 @@ bool is_variance(std::string_view name) { return name.starts_with("variance."); 
 
 std::string size_text(const Image& image) {
   const PixelBox& b = image.box();
-  return std::to_string(image.width_px()) + " x " + std::to_string(image.height_px()) + " pixels, columns " +
-         std::to_string(b.x0) + " to " + std::to_string(b.x1) + " and rows " + std::to_string(b.y0) + " to " +
-         std::to_string(b.y1);
+  return std::to_string(image.width_px()) + " x " + std::to_string(image.height_px()) +
+         " pixels, columns " + std::to_string(b.x0) + " to " + std::to_string(b.x1) + " and rows " +
+         std::to_string(b.y0) + " to " + std::to_string(b.y1);
 }
 
 std::vector<std::string> missing_from(const Image& image, const Image& other) {
@@ -42,7 +42,8 @@ struct NoiseSums {
   NoiseFigures figures() const {
     if (pixels == 0) return {};
     const auto count = static_cast<double>(pixels);
-    return {std::sqrt(squared_z / count), static_cast<double>(beyond_3) / count, difference / std::sqrt(variance), pixels};
+    return {std::sqrt(squared_z / count), static_cast<double>(beyond_3) / count,
+            difference / std::sqrt(variance), pixels};
   }
 };
 
@@ -68,7 +69,8 @@ ChannelDifference compared(const PixelPairs& pairs, const std::string& name) {
     result.mean_difference += difference / count;
     result.rmse += difference * difference / count;
     // Two equal pixels differ by nothing, also where both are black.
-    if (difference != 0) result.relative_mse += difference * difference / (p.b * p.b + softening) / count;
+    if (difference != 0)
+      result.relative_mse += difference * difference / (p.b * p.b + softening) / count;
     if (std::fabs(difference) > result.largest) {
       result.largest = std::fabs(difference);
       result.largest_x = p.x;
@@ -89,10 +91,11 @@ std::string number(double x, const char* format = "%.4g") {
 
 }  // namespace
 
-Comparison compare(const Image& a, const Image& b, std::string_view name_a, std::string_view name_b) {
+Comparison compare(const Image& a, const Image& b, std::string_view name_a,
+                   std::string_view name_b) {
   if (a.width_px() != b.width_px() || a.height_px() != b.height_px() || !(a.box() == b.box()))
-    throw Error(Fault::mismatch, std::string(name_b) + ": " + size_text(b) + " found; " + size_text(a) +
-                                     " expected, as in " + std::string(name_a));
+    throw Error(Fault::mismatch, std::string(name_b) + ": " + size_text(b) + " found; " +
+                                     size_text(a) + " expected, as in " + std::string(name_a));
   Comparison result;
   result.only_a = missing_from(a, b);
   result.only_b = missing_from(b, a);
@@ -104,7 +107,8 @@ Comparison compare(const Image& a, const Image& b, std::string_view name_a, std:
     result.is_equal = result.is_equal && result.channels.back().largest == 0;
   }
   if (result.channels.empty())
-    throw Error(Fault::mismatch, std::string(name_a) + " and " + std::string(name_b) + ": no common channel found; at "
+    throw Error(Fault::mismatch, std::string(name_a) + " and " + std::string(name_b) +
+                                     ": no common channel found; at "
                                      "least one expected, such as R, G and B");
   result.not_finite = pairs.pixels_not_finite();
   result.pixels = a.box().pixels() - result.not_finite;
@@ -113,12 +117,17 @@ Comparison compare(const Image& a, const Image& b, std::string_view name_a, std:
 }
 
 std::string figures_text(const Comparison& comparison) {
-  const std::vector<std::string> header{"channel", "mean A", "mean B", "A - B", "RMSE", "relMSE", "largest",
-                                        "at", "rms z", "|z|>3", "mean z"};
+  const std::vector<std::string> header{"channel", "mean A", "mean B", "A - B", "RMSE",  "relMSE",
+                                        "largest", "at",     "rms z",  "|z|>3", "mean z"};
   std::vector<std::vector<std::string>> rows{header};
   for (const ChannelDifference& c : comparison.channels) {
-    std::vector<std::string> row{c.name, number(c.mean_a), number(c.mean_b), number(c.mean_difference, "%+.3g"),
-                                 number(c.rmse, "%.3g"), number(c.relative_mse, "%.3g"), number(c.largest, "%.3g"),
+    std::vector<std::string> row{c.name,
+                                 number(c.mean_a),
+                                 number(c.mean_b),
+                                 number(c.mean_difference, "%+.3g"),
+                                 number(c.rmse, "%.3g"),
+                                 number(c.relative_mse, "%.3g"),
+                                 number(c.largest, "%.3g"),
                                  std::to_string(c.largest_x) + "," + std::to_string(c.largest_y)};
     if (c.noise) {
       row.push_back(number(c.noise->rms_z, "%.3f"));
@@ -140,9 +149,11 @@ std::string figures_text(const Comparison& comparison) {
     text += "\n";
   }
   text += std::to_string(comparison.pixels) + " pixels compared";
-  if (comparison.not_finite > 0) text += ", " + std::to_string(comparison.not_finite) + " left out: not finite";
+  if (comparison.not_finite > 0)
+    text += ", " + std::to_string(comparison.not_finite) + " left out: not finite";
   text += comparison.is_equal ? "; equal\n" : "\n";
-  if (std::none_of(comparison.channels.begin(), comparison.channels.end(), [](const auto& c) { return c.noise.has_value(); }))
+  if (std::none_of(comparison.channels.begin(), comparison.channels.end(),
+                   [](const auto& c) { return c.noise.has_value(); }))
     text += "no z: both pictures need the channel \"variance\" (film.channels)\n";
   return text;
 }

@@ -7,7 +7,8 @@
 namespace arcus::render {
 namespace {
 
-/// Lowest value between `top` and the nearest higher point in one direction (step +1 or -1), or the end of the curve.
+/// Lowest value between `top` and the nearest higher point in one direction (step +1 or -1), or the
+/// end of the curve.
 double valley(std::span<const double> y, std::ptrdiff_t top, std::ptrdiff_t step) {
   const auto size = static_cast<std::ptrdiff_t>(y.size());
   const auto at = [&](std::ptrdiff_t i) { return y[static_cast<std::size_t>(i)]; };
@@ -18,8 +19,10 @@ double valley(std::span<const double> y, std::ptrdiff_t top, std::ptrdiff_t step
 }
 
 /// The vertex of the least-squares parabola through points first to last (included).
-Peak fitted(std::span<const double> x, std::span<const double> y, std::size_t top, std::size_t first, std::size_t last) {
-  // Normal equations for y = a + b t + c t², with t measured from the top in units of half the width.
+Peak fitted(std::span<const double> x, std::span<const double> y, std::size_t top,
+            std::size_t first, std::size_t last) {
+  // Normal equations for y = a + b t + c t², with t measured from the top in units of half the
+  // width.
   const double scale = 0.5 * (x[last] - x[first]);
   double s[5] = {}, r[3] = {};
   for (std::size_t i = first; i <= last; ++i) {
@@ -30,14 +33,18 @@ Peak fitted(std::span<const double> x, std::span<const double> y, std::size_t to
       if (k < 3) r[k] += power * y[i];
     }
   }
-  const double determinant =
-      s[0] * (s[2] * s[4] - s[3] * s[3]) - s[1] * (s[1] * s[4] - s[2] * s[3]) + s[2] * (s[1] * s[3] - s[2] * s[2]);
+  const double determinant = s[0] * (s[2] * s[4] - s[3] * s[3]) -
+                             s[1] * (s[1] * s[4] - s[2] * s[3]) +
+                             s[2] * (s[1] * s[3] - s[2] * s[2]);
   const double a = (r[0] * (s[2] * s[4] - s[3] * s[3]) - s[1] * (r[1] * s[4] - s[3] * r[2]) +
-                    s[2] * (r[1] * s[3] - s[2] * r[2])) / determinant;
+                    s[2] * (r[1] * s[3] - s[2] * r[2])) /
+                   determinant;
   const double b = (s[0] * (r[1] * s[4] - s[3] * r[2]) - r[0] * (s[1] * s[4] - s[2] * s[3]) +
-                    s[2] * (s[1] * r[2] - r[1] * s[2])) / determinant;
+                    s[2] * (s[1] * r[2] - r[1] * s[2])) /
+                   determinant;
   const double c = (s[0] * (s[2] * r[2] - r[1] * s[3]) - s[1] * (s[1] * r[2] - r[1] * s[2]) +
-                    r[0] * (s[1] * s[3] - s[2] * s[2])) / determinant;
+                    r[0] * (s[1] * s[3] - s[2] * s[2])) /
+                   determinant;
   const double t = c < 0 ? -b / (2 * c) : 0;
   const double low = (x[first] - x[top]) / scale, high = (x[last] - x[top]) / scale;
   if (!(t >= low && t <= high)) return {x[top], y[top], 0};
@@ -46,8 +53,8 @@ Peak fitted(std::span<const double> x, std::span<const double> y, std::size_t to
 
 }  // namespace
 
-std::vector<Peak> find_peaks(std::span<const double> x, std::span<const double> y, std::span<const double> errors,
-                             double least_share) {
+std::vector<Peak> find_peaks(std::span<const double> x, std::span<const double> y,
+                             std::span<const double> errors, double least_share) {
   assert(x.size() == y.size() && (errors.empty() || errors.size() == y.size()));
   std::vector<Peak> peaks;
   if (x.size() < 3) return peaks;
@@ -60,7 +67,9 @@ std::vector<Peak> find_peaks(std::span<const double> x, std::span<const double> 
     if (plateau + 1 == y.size() || y[plateau + 1] > y[top]) continue;
     const auto middle = static_cast<std::ptrdiff_t>(top);
     const double prominence = y[top] - std::max(valley(y, middle, -1), valley(y, middle, 1));
-    if (!(prominence > 0) || prominence < least || (!errors.empty() && prominence < 5 * errors[top])) continue;
+    if (!(prominence > 0) || prominence < least ||
+        (!errors.empty() && prominence < 5 * errors[top]))
+      continue;
     const double threshold = y[top] - 0.25 * prominence;
     std::size_t first = top - 1, last = plateau + 1;
     while (first > 0 && y[first - 1] >= threshold && y[first] >= threshold) --first;

@@ -24,7 +24,8 @@ struct PixelPair {
   bool is_finite() const { return std::isfinite(a) && std::isfinite(b); }
   /// The difference over its standard deviation; nothing where that is not known or 0.
   std::optional<double> z() const {
-    if (!is_finite() || !variance || !(*variance > 0) || !std::isfinite(*variance)) return std::nullopt;
+    if (!is_finite() || !variance || !(*variance > 0) || !std::isfinite(*variance))
+      return std::nullopt;
     return (a - b) / std::sqrt(*variance);
   }
 };
@@ -36,12 +37,14 @@ class PixelPairs {
 
   /// A channel that both have.
   Pairing channel(const std::string& name) const {
-    return {*a_.channel(name), *b_.channel(name), a_.channel("variance." + name), b_.channel("variance." + name)};
+    return {*a_.channel(name), *b_.channel(name), a_.channel("variance." + name),
+            b_.channel("variance." + name)};
   }
   PixelPair pair(const Pairing& channel, int x, int y) const {
     PixelPair p{x, y, a_.value(x, y, channel.a), b_.value(x, y, channel.b), std::nullopt};
     if (channel.variance_a && channel.variance_b)
-      p.variance = static_cast<double>(a_.value(x, y, *channel.variance_a)) + b_.value(x, y, *channel.variance_b);
+      p.variance = static_cast<double>(a_.value(x, y, *channel.variance_a)) +
+                   b_.value(x, y, *channel.variance_b);
     return p;
   }
   /// Calls action(PixelPair) for every pixel, row by row.

@@ -31,7 +31,8 @@ std::string png_of(const PolarChart& chart) {
   const std::vector<Tick> ticks = scale.ticks(std::max(2, static_cast<int>(radius / 45)));
   for (const Tick& tick : ticks) {
     const double share = *scale.position(tick.value);
-    if (share > 0 && !tick.label.empty()) canvas.circle(centre, share * radius, {grid_ink, 0.9, 1, false});
+    if (share > 0 && !tick.label.empty())
+      canvas.circle(centre, share * radius, {grid_ink, 0.9, 1, false});
   }
   canvas.circle(centre, radius, {grey_ink, 1, 1, false});
 
@@ -52,7 +53,8 @@ std::string png_of(const PolarChart& chart) {
     const Point at = point(75, share);
     canvas.text(tick.label, {at.x, at.y + 4}, {10.5, grey_ink, false, 0.5, 0, true});
   }
-  canvas.text(chart.radius_axis.title, {centre.x, centre.y + radius + 44}, {12.5, dark_ink, false, 0.5});
+  canvas.text(chart.radius_axis.title, {centre.x, centre.y + radius + 44},
+              {12.5, dark_ink, false, 0.5});
   return canvas.png();
 }
 

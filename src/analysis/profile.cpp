@@ -27,7 +27,8 @@ std::optional<std::pair<double, double>> two_numbers(std::string_view text) {
   const auto first = std::from_chars(text.data(), end, a);
   if (first.ec != std::errc() || first.ptr == end || *first.ptr != ',') return std::nullopt;
   const auto second = std::from_chars(first.ptr + 1, end, b);
-  if (second.ec != std::errc() || second.ptr != end || !std::isfinite(a) || !std::isfinite(b)) return std::nullopt;
+  if (second.ec != std::errc() || second.ptr != end || !std::isfinite(a) || !std::isfinite(b))
+    return std::nullopt;
   return std::pair(a, b);
 }
 
@@ -36,7 +37,8 @@ Centre centre_of(const Image& image, const std::string& around, std::string_view
   if (around == "sun" || around == "antisolar") {
     const auto sun = read_sun(image.metadata);
     if (!sun)
-      throw bad_input(where, "no place of the sun (metadata arcus:sun:*)", "a picture that arcus rendered expected",
+      throw bad_input(where, "no place of the sun (metadata arcus:sun:*)",
+                      "a picture that arcus rendered expected",
                       "Give the direction as AZIMUTH,ELEVATION");
     const Vec3 to_sun = direction_of(sun->azimuth_deg, sun->elevation_deg);
     if (around == "sun") return {to_sun, "the sun", Profile::Scattering::angle};
@@ -44,10 +46,12 @@ Centre centre_of(const Image& image, const std::string& around, std::string_view
   }
   const auto place = two_numbers(around);
   if (!place || std::fabs(place->second) > 90)
-    throw bad_input("--around", "'" + around + "'",
-                    "sun, antisolar, zenith, or AZIMUTH,ELEVATION in degrees (elevation -90 to 90) expected");
-  return {direction_of(place->first, place->second),
-          "azimuth " + number_text(place->first) + "°, elevation " + number_text(place->second) + "°"};
+    throw bad_input(
+        "--around", "'" + around + "'",
+        "sun, antisolar, zenith, or AZIMUTH,ELEVATION in degrees (elevation -90 to 90) expected");
+  return {
+      direction_of(place->first, place->second),
+      "azimuth " + number_text(place->first) + "°, elevation " + number_text(place->second) + "°"};
 }
 
 /// Directions of a picture at the corners of a lattice of n x n squares a pixel.
@@ -99,12 +103,14 @@ double modulo_360(double angle_deg) {
   return rest < 0 ? rest + 360 : rest;
 }
 
-/// Typical angle between neighbouring pixels: the root of the solid angle of a pixel in the middle of the picture.
+/// Typical angle between neighbouring pixels: the root of the solid angle of a pixel in the middle
+/// of the picture.
 double pixel_angle_deg(const Camera& camera, const PixelBox& box) {
   const double x = std::floor(0.5 * (box.x0 + box.x1)), y = std::floor(0.5 * (box.y0 + box.y1));
   const auto a = camera.ray(x, y), b = camera.ray(x + 1, y), c = camera.ray(x, y + 1);
   if (!a || !b || !c) return 0.1;
-  return degrees(std::sqrt(length(cross(b->direction - a->direction, c->direction - a->direction))));
+  return degrees(
+      std::sqrt(length(cross(b->direction - a->direction, c->direction - a->direction))));
 }
 
 double round_number_near(double x) {
@@ -130,7 +136,8 @@ void add_share(std::vector<PixelShare>& shares, std::size_t bin, double weight, 
   shares.push_back({bin, weight, share});
 }
 
-/// Channels of a picture that are profiled, and the channel with the variance of each where there is one.
+/// Channels of a picture that are profiled, and the channel with the variance of each where there
+/// is one.
 struct ChannelPlan {
   std::vector<std::size_t> value;
   std::vector<std::optional<std::size_t>> variance;
@@ -144,7 +151,8 @@ struct ChannelPlan {
     }
   }
   bool has_variance() const {
-    return std::any_of(variance.begin(), variance.end(), [](const auto& v) { return v.has_value(); });
+    return std::any_of(variance.begin(), variance.end(),
+                       [](const auto& v) { return v.has_value(); });
   }
 };
 
@@ -152,7 +160,8 @@ struct ChannelPlan {
 struct BinSums {
   double weight = 0, pixels = 0;
   double squared_weight = 0;  ///< sum of the squares of the pixels' weights
-  std::vector<double> value, squared_value, variance;  ///< weighted; the variance with the square of the weight
+  std::vector<double> value, squared_value,
+      variance;  ///< weighted; the variance with the square of the weight
 
   void add(const PixelShare& s, const float* values, const ChannelPlan& plan) {
     weight += s.weight;
@@ -170,7 +179,8 @@ struct BinSums {
     const double mean = value[k] / weight;
     const double scatter = std::fmax(0, squared_value[k] / weight - mean * mean);
     const double independent = weight * weight / squared_weight;
-    return independent > 1 ? std::sqrt(scatter / (independent - 1)) : std::numeric_limits<double>::infinity();
+    return independent > 1 ? std::sqrt(scatter / (independent - 1))
+                           : std::numeric_limits<double>::infinity();
   }
 };
 
@@ -187,16 +197,20 @@ class Rings {
         sector_width_deg_(modulo_360(settings.sector_to_deg - settings.sector_from_deg)) {
     const double bins = std::ceil((to_deg_ - from_deg_) / bin_deg - 1e-9);
     if (bins > 1e6)
-      throw bad_input("profile", "bins of " + number_text(bin_deg) + " degrees", "at most a million bins expected");
+      throw bad_input("profile", "bins of " + number_text(bin_deg) + " degrees",
+                      "at most a million bins expected");
     count_ = static_cast<std::size_t>(bins);
   }
   std::size_t count() const { return count_; }
   bool is_sector() const { return sector_width_deg_ > 0; }
-  double middle_deg(std::size_t bin) const { return from_deg_ + (static_cast<double>(bin) + 0.5) * bin_deg_; }
+  double middle_deg(std::size_t bin) const {
+    return from_deg_ + (static_cast<double>(bin) + 0.5) * bin_deg_;
+  }
   std::optional<std::size_t> bin_of(const Vec3& direction) const {
     const double angle_deg = degrees(angle_between_rad(direction, centre_));
     if (angle_deg < from_deg_ || angle_deg >= to_deg_) return std::nullopt;
-    if (is_sector() && modulo_360(position_angle_(direction) - sector_from_deg_) > sector_width_deg_)
+    if (is_sector() &&
+        modulo_360(position_angle_(direction) - sector_from_deg_) > sector_width_deg_)
       return std::nullopt;
     return std::min(static_cast<std::size_t>((angle_deg - from_deg_) / bin_deg_), count_ - 1);
   }
@@ -209,7 +223,8 @@ class Rings {
 };
 
 /// Divides every pixel into n x n squares and adds its values to the bins they lie in.
-std::vector<BinSums> summed(const Image& image, const ChannelPlan& plan, const Camera& camera, const Rings& rings, int n) {
+std::vector<BinSums> summed(const Image& image, const ChannelPlan& plan, const Camera& camera,
+                            const Rings& rings, int n) {
   const PixelBox& box = image.box();
   const Lattice lattice(camera, box, n);
   const std::vector<double> zeros(plan.value.size());
@@ -220,7 +235,9 @@ std::vector<BinSums> summed(const Image& image, const ChannelPlan& plan, const C
   for (int y = 0; y < box.height(); ++y) {
     for (int j = 0; j <= n; ++j) lines[static_cast<std::size_t>(j)] = lattice.line(y * n + j);
     for (int x = 0; x < box.width(); ++x, values += image.channel_names().size()) {
-      if (!std::all_of(plan.value.begin(), plan.value.end(), [&](auto c) { return std::isfinite(values[c]); })) continue;
+      if (!std::all_of(plan.value.begin(), plan.value.end(),
+                       [&](auto c) { return std::isfinite(values[c]); }))
+        continue;
       shares.clear();
       for (std::size_t j = 0; j < static_cast<std::size_t>(n); ++j) {
         for (int i = 0; i < n; ++i) {
@@ -246,15 +263,21 @@ const ProfileChannel* Profile::channel(std::string_view name) const {
   return nullptr;
 }
 
-Profile measure_profile(const Image& image, const ProfileSettings& settings, std::string_view where) {
+Profile measure_profile(const Image& image, const ProfileSettings& settings,
+                        std::string_view where) {
   const auto camera_settings = read_camera(image);
   if (!camera_settings)
-    throw bad_input(where, "no camera (metadata arcus:camera:*)", "a picture that arcus rendered expected");
+    throw bad_input(where, "no camera (metadata arcus:camera:*)",
+                    "a picture that arcus rendered expected");
   if (camera_settings->type == "orthographic")
-    throw bad_input(where, "an orthographic camera", "pixels that look in different directions expected");
-  if (!(settings.from_deg < settings.to_deg) || settings.bin_deg < 0 || !std::isfinite(settings.bin_deg))
-    throw bad_input("profile", "angles from " + number_text(settings.from_deg) + " to " +
-                    number_text(settings.to_deg) + " in bins of " + number_text(settings.bin_deg),
+    throw bad_input(where, "an orthographic camera",
+                    "pixels that look in different directions expected");
+  if (!(settings.from_deg < settings.to_deg) || settings.bin_deg < 0 ||
+      !std::isfinite(settings.bin_deg))
+    throw bad_input("profile",
+                    "angles from " + number_text(settings.from_deg) + " to " +
+                        number_text(settings.to_deg) + " in bins of " +
+                        number_text(settings.bin_deg),
                     "an ascending range and a positive width expected");
   const auto camera = make_camera(*camera_settings);
   const Centre centre = centre_of(image, settings.around, where);
@@ -266,12 +289,14 @@ Profile measure_profile(const Image& image, const ProfileSettings& settings, std
   profile.centre = centre.direction;
   profile.scattering = centre.scattering;
   profile.bin_deg = settings.bin_deg > 0 ? settings.bin_deg : round_number_near(pixel_deg);
-  profile.error_source = plan.has_variance() ? Profile::ErrorSource::variance : Profile::ErrorSource::scatter;
+  profile.error_source =
+      plan.has_variance() ? Profile::ErrorSource::variance : Profile::ErrorSource::scatter;
   const Rings rings(settings, centre.direction, profile.bin_deg);
   const int n = std::clamp(static_cast<int>(std::ceil(2 * pixel_deg / profile.bin_deg)), 2, 16);
   const std::vector<BinSums> sums = summed(image, plan, *camera, rings, n);
 
-  for (const std::size_t c : plan.value) profile.channels.push_back({image.channel_names()[c], {}, {}});
+  for (const std::size_t c : plan.value)
+    profile.channels.push_back({image.channel_names()[c], {}, {}});
   for (std::size_t b = 0; b < rings.count(); ++b) {
     const BinSums& bin = sums[b];
     if (!(bin.weight > 0)) continue;
@@ -280,25 +305,31 @@ Profile measure_profile(const Image& image, const ProfileSettings& settings, std
     profile.pixels.push_back(bin.pixels);
     for (std::size_t k = 0; k < plan.value.size(); ++k) {
       profile.channels[k].mean.push_back(bin.value[k] / bin.weight);
-      profile.channels[k].standard_error.push_back(bin.standard_error(k, plan.variance[k].has_value()));
+      profile.channels[k].standard_error.push_back(
+          bin.standard_error(k, plan.variance[k].has_value()));
     }
   }
   if (profile.angle_deg.empty())
-    throw bad_input(where, "no pixel between " + number_text(settings.from_deg) + " and " + number_text(settings.to_deg) +
-                    " degrees from " + centre.words + (rings.is_sector() ? " in that sector" : ""),
+    throw bad_input(where,
+                    "no pixel between " + number_text(settings.from_deg) + " and " +
+                        number_text(settings.to_deg) + " degrees from " + centre.words +
+                        (rings.is_sector() ? " in that sector" : ""),
                     "a range that is on the picture expected");
   return profile;
 }
 
 std::string csv_of(const Profile& profile, std::string_view picture_name) {
-  std::string text = "# mean radiance [W m-2 sr-1 nm-1] against the angle from " + profile.around + "\n# picture: " +
-                     std::string(picture_name) + "\n# bins of " + number_text(profile.bin_deg) +
+  std::string text = "# mean radiance [W m-2 sr-1 nm-1] against the angle from " + profile.around +
+                     "\n# picture: " + std::string(picture_name) + "\n# bins of " +
+                     number_text(profile.bin_deg) +
                      " degrees, named by their middle; standard errors from " +
                      (profile.error_source == Profile::ErrorSource::variance
                           ? "the picture's variance channels"
-                          : "the scatter of the pixels in a bin") + "\n";
+                          : "the scatter of the pixels in a bin") +
+                     "\n";
   const bool has_scattering = profile.scattering != Profile::Scattering::none;
-  text += has_scattering ? "angle_deg,scattering_angle_deg,solid_angle_sr,pixels" : "angle_deg,solid_angle_sr,pixels";
+  text += has_scattering ? "angle_deg,scattering_angle_deg,solid_angle_sr,pixels"
+                         : "angle_deg,solid_angle_sr,pixels";
   for (const auto& c : profile.channels) text += "," + c.name + "," + c.name + "_standard_error";
   text += "\n";
   const auto add = [&](const char* format, double value) {
@@ -309,7 +340,8 @@ std::string csv_of(const Profile& profile, std::string_view picture_name) {
   for (std::size_t b = 0; b < profile.angle_deg.size(); ++b) {
     const double angle = profile.angle_deg[b];
     add("%.10g", angle);
-    if (has_scattering) add(",%.10g", profile.scattering == Profile::Scattering::angle ? angle : 180 - angle);
+    if (has_scattering)
+      add(",%.10g", profile.scattering == Profile::Scattering::angle ? angle : 180 - angle);
     add(",%.6g", profile.solid_angle_sr[b]);
     add(",%.6g", profile.pixels[b]);
     for (const auto& c : profile.channels) {

@@ -13,19 +13,26 @@
 namespace arcus::render {
 namespace {
 
-/// White for 0, through light to full red (positive) or blue (negative) at +-1; equal steps look about equal.
+/// White for 0, through light to full red (positive) or blue (negative) at +-1; equal steps look
+/// about equal.
 std::array<std::uint8_t, 3> diverging(double value) {
-  const double v = std::clamp(value, -1.0, 1.0), share = std::fabs(v);
-  const std::array<double, 3> end = v > 0 ? std::array<double, 3>{0.70, 0.02, 0.10} : std::array<double, 3>{0.02, 0.22, 0.62};
+  // In 32 steps to either side, which an eye hardly tells apart: noise in full depth would make the
+  // file three times as large.
+  const double v = std::round(32 * std::clamp(value, -1.0, 1.0)) / 32, share = std::fabs(v);
+  const std::array<double, 3> end =
+      v > 0 ? std::array<double, 3>{0.70, 0.02, 0.10} : std::array<double, 3>{0.02, 0.22, 0.62};
   std::array<std::uint8_t, 3> bytes;
   for (std::size_t i = 0; i < 3; ++i)
-    bytes[i] = static_cast<std::uint8_t>(std::lround(255 * (1 + std::pow(share, 0.7) * (end[i] - 1))));
+    bytes[i] =
+        static_cast<std::uint8_t>(std::lround(255 * (1 + std::pow(share, 0.7) * (end[i] - 1))));
   return bytes;
 }
 
-/// One pixel of colour for each pair; value_of gives what is shown as a share of full colour, or nothing (grey).
+/// One pixel of colour for each pair; value_of gives what is shown as a share of full colour, or
+/// nothing (grey).
 template <class ValueOf>
-DisplayPicture painted(const Image& a, const Image& b, const std::string& channel, const ValueOf& value_of) {
+DisplayPicture painted(const Image& a, const Image& b, const std::string& channel,
+                       const ValueOf& value_of) {
   DisplayPicture picture{a.box().width(), a.box().height(), {}};
   picture.rgb.reserve(3 * a.box().pixels());
   const PixelPairs pairs(a, b);
@@ -38,7 +45,8 @@ DisplayPicture painted(const Image& a, const Image& b, const std::string& channe
 }
 
 std::string base64(std::string_view bytes) {
-  static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  static constexpr char digits[] =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     unsigned group = 0;
@@ -53,30 +61,38 @@ std::string base64(std::string_view bytes) {
 std::string escaped(std::string_view words) {
   std::string text;
   for (const char c : words) {
-    if (c == '<') text += "&lt;";
-    else if (c == '>') text += "&gt;";
-    else if (c == '&') text += "&amp;";
-    else if (c == '"') text += "&quot;";
-    else text += c;
+    if (c == '<')
+      text += "&lt;";
+    else if (c == '>')
+      text += "&gt;";
+    else if (c == '&')
+      text += "&amp;";
+    else if (c == '"')
+      text += "&quot;";
+    else
+      text += c;
   }
   return text;
 }
 
 std::string figure(const std::string& png, const std::string& words, const char* kind = "picture") {
   return std::string("<figure><img class=\"") + kind + "\" alt=\"" + escaped(words) +
-         "\" src=\"data:image/png;base64," + base64(png) + "\"><figcaption>" + escaped(words) + "</figcaption></figure>\n";
+         "\" src=\"data:image/png;base64," + base64(png) + "\"><figcaption>" + escaped(words) +
+         "</figcaption></figure>\n";
 }
 
 /// A quantile of |a - b|, or of the brightness of b, over the finite pixels; 0 where there is none.
 template <class ValueOf>
-double quantile(const Image& a, const Image& b, const std::string& channel, double share, const ValueOf& value_of) {
+double quantile(const Image& a, const Image& b, const std::string& channel, double share,
+                const ValueOf& value_of) {
   std::vector<double> values;
   const PixelPairs pairs(a, b);
   pairs.for_each(pairs.channel(channel), [&](const PixelPair& p) {
     if (p.is_finite()) values.push_back(value_of(p));
   });
   if (values.empty()) return 0;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
@@ -96,7 +112,8 @@ LineChart z_histogram(const Image& a, const Image& b, const Comparison& comparis
   for (const ChannelDifference& c : comparison.channels) {
     if (!c.noise || c.noise->pixels == 0) continue;
     Line line{c.name, {}, std::vector<double>(bins), {}, ink_of_channel(c.name)};
-    for (std::size_t i = 0; i < bins; ++i) line.x.push_back(-widest + (static_cast<double>(i) + 0.5) * step);
+    for (std::size_t i = 0; i < bins; ++i)
+      line.x.push_back(-widest + (static_cast<double>(i) + 0.5) * step);
     pairs.for_each(pairs.channel(c.name), [&](const PixelPair& p) {
       const auto z = p.z();
       if (!z) return;
@@ -116,7 +133,8 @@ LineChart z_histogram(const Image& a, const Image& b, const Comparison& comparis
 
 }  // namespace
 
-DisplayPicture difference_picture(const Image& a, const Image& b, const std::string& channel, double full) {
+DisplayPicture difference_picture(const Image& a, const Image& b, const std::string& channel,
+                                  double full) {
   return painted(a, b, channel, [full](const PixelPair& p) -> std::optional<double> {
     if (!p.is_finite()) return std::nullopt;
     return full > 0 ? (p.a - p.b) / full : 0;
@@ -130,8 +148,8 @@ DisplayPicture z_picture(const Image& a, const Image& b, const std::string& chan
   });
 }
 
-std::string html_report(const Image& a, const Image& b, const Comparison& comparison, std::string_view name_a,
-                        std::string_view name_b) {
+std::string html_report(const Image& a, const Image& b, const Comparison& comparison,
+                        std::string_view name_a, std::string_view name_b) {
   const std::string& first = comparison.channels.front().name;
   const std::string shown = b.channel("G") && a.channel("G") ? "G" : first;
   // The exposure that brings all but the brightest half percent of B below the shoulder.
@@ -144,24 +162,29 @@ std::string html_report(const Image& a, const Image& b, const Comparison& compar
       "figure{display:inline-block;margin:.4em;max-width:48%;vertical-align:top}img{max-width:100%}\n"
       ".picture{min-width:20em;image-rendering:pixelated}.chart{width:720px}\n"
       "figcaption{color:#555;font-size:.9em}pre{background:#f4f4f6;padding:1em;overflow-x:auto}\n</style></head><body>\n"
-      "<h1>Comparison</h1>\n<p>A: " + escaped(name_a) + "<br>B: " + escaped(name_b) + "</p>\n<pre>" +
+      "<h1>Comparison</h1>\n<p>A: " +
+      escaped(name_a) + "<br>B: " + escaped(name_b) + "</p>\n<pre>" +
       escaped(figures_text(comparison)) + "</pre>\n<h2>Pictures</h2>\n";
   page += figure(png_bytes(tone_mapped(a, tone)), "A");
   page += figure(png_bytes(tone_mapped(b, tone)), "B, at the same exposure");
   page += "<h2>Difference</h2>\n";
   for (const ChannelDifference& c : comparison.channels) {
     if (c.name.starts_with("S0.")) continue;  // dozens of nearly equal pictures
-    const double full = quantile(a, b, c.name, 0.99, [](const PixelPair& p) { return std::fabs(p.a - p.b); });
+    const double full =
+        quantile(a, b, c.name, 0.99, [](const PixelPair& p) { return std::fabs(p.a - p.b); });
     const double scale = full > 0 ? full : c.largest;
     std::snprintf(number, sizeof number, "%.3g", scale);
-    page += figure(png_bytes(difference_picture(a, b, c.name, scale)),
+    page += figure(png_bytes(difference_picture(a, b, c.name, scale), true),
                    c.name + ": A − B, red where A is brighter, full colour at " + number);
-    if (c.noise) page += figure(png_bytes(z_picture(a, b, c.name)), c.name + ": z, full colour at 4 standard deviations");
+    if (c.noise)
+      page += figure(png_bytes(z_picture(a, b, c.name), true),
+                     c.name + ": z, full colour at 4 standard deviations");
   }
   const bool has_z = std::any_of(comparison.channels.begin(), comparison.channels.end(),
                                  [](const auto& c) { return c.noise && c.noise->pixels > 0; });
   if (has_z)
-    page += "<h2>Against the noise</h2>\n" + figure(png_of(z_histogram(a, b, comparison)), "histogram of z", "chart");
+    page += "<h2>Against the noise</h2>\n" +
+            figure(png_of(z_histogram(a, b, comparison)), "histogram of z", "chart");
   return page + "</body></html>\n";
 }
 

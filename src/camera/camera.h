@@ -1,9 +1,10 @@
 #pragma once
 // The eye: which ray belongs to a point of the picture, and back.
 //
-// Points of the picture are in pixels, x to the right and y down from the top left corner; the centre of the pixel in
-// column i and row j is (i + 1/2, j + 1/2). The camera looks along f = direction_of(azimuth, elevation), its right is
-// r = (cos az, -sin az, 0) and its up is r x f, also straight up and down.
+// Points of the picture are in pixels, x to the right and y down from the top left corner; the
+// centre of the pixel in column i and row j is (i + 1/2, j + 1/2). The camera looks along f =
+// direction_of(azimuth, elevation), its right is r = (cos az, -sin az, 0) and its up is r x f, also
+// straight up and down.
 
 #include <memory>
 #include <optional>
@@ -20,8 +21,8 @@ struct CameraSettings {
   Vec3 position_m{0, 0, 1.7};
   double azimuth_deg = 0;    ///< compass azimuth of the viewing direction
   double elevation_deg = 0;  ///< of the viewing direction, -90 to 90
-  /// Angle of view: across the width (perspective, equirectangular) or across the full circle (fisheye).
-  /// 0: the type's usual one, see usual_fov_deg.
+  /// Angle of view: across the width (perspective, equirectangular) or across the full circle
+  /// (fisheye). 0: the type's usual one, see usual_fov_deg.
   double fov_deg = 0;
   double width_m = 1000;  ///< orthographic: what the width of the picture shows
   int width_px = 960, height_px = 640;
@@ -42,15 +43,17 @@ struct ImagePoint {
 class Camera {
  public:
   virtual ~Camera() = default;
-  /// The ray that leaves the eye (for an orthographic camera: the picture's plane) through a point of the picture.
-  /// Nothing where the picture shows nothing: outside the circle of a fisheye, beyond the poles of an
-  /// equirectangular picture.
+  /// The ray that leaves the eye (for an orthographic camera: the picture's plane) through a point
+  /// of the picture. Nothing where the picture shows nothing: outside the circle of a fisheye,
+  /// beyond the poles of an equirectangular picture.
   virtual std::optional<media::Ray> ray(double x, double y) const = 0;
-  /// Where on the picture a point in space is seen. Nothing where it is not on the picture, its border included.
+  /// Where on the picture a point in space is seen. Nothing where it is not on the picture, its
+  /// border included.
   virtual std::optional<ImagePoint> image_point(const Vec3& point_m) const = 0;
 };
 
-/// Throws bad_input for a field of view that the type cannot have and for a picture without or with too many pixels.
+/// Throws bad_input for a field of view that the type cannot have and for a picture without or with
+/// too many pixels.
 std::unique_ptr<Camera> make_camera(const CameraSettings& settings);
 
 }  // namespace arcus::render

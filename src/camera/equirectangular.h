@@ -1,7 +1,8 @@
 #pragma once
-// A panorama: columns are equally spaced in longitude, rows in latitude, both counted from the viewing direction and
-// about the camera's up. With elevation 0 they are compass azimuth and elevation. Pixels are square, so a field of view
-// of 360 degrees and a width of twice the height show the whole sphere; rows beyond the poles show nothing.
+// A panorama: columns are equally spaced in longitude, rows in latitude, both counted from the
+// viewing direction and about the camera's up. With elevation 0 they are compass azimuth and
+// elevation. Pixels are square, so a field of view of 360 degrees and a width of twice the height
+// show the whole sphere; rows beyond the poles show nothing.
 
 #include "src/camera/camera.h"
 #include "src/camera/view_frame.h"

@@ -26,7 +26,8 @@ std::optional<ImagePoint> Fisheye::image_point(const Vec3& point_m) const {
   const double angle = std::atan2(sideways, v.z);
   if (squared_length(v) == 0 || angle > widest_rad_ * (1 + 1e-14)) return std::nullopt;
   const double scale = sideways > 0 ? angle / (rad_per_pixel_ * sideways) : 0;
-  return if_on_picture(0.5 * width_px_ + v.x * scale, 0.5 * height_px_ - v.y * scale, width_px_, height_px_);
+  return if_on_picture(0.5 * width_px_ + v.x * scale, 0.5 * height_px_ - v.y * scale, width_px_,
+                       height_px_);
 }
 
 }  // namespace arcus::render

@@ -1,7 +1,7 @@
 #pragma once
-// An equidistant fisheye: the distance from the centre of the picture is proportional to the angle from the viewing
-// direction. The angle of view fills the largest circle around the centre that fits on the picture; outside it the
-// picture shows nothing.
+// An equidistant fisheye: the distance from the centre of the picture is proportional to the angle
+// from the viewing direction. The angle of view fills the largest circle around the centre that
+// fits on the picture; outside it the picture shows nothing.
 
 #include "src/camera/camera.h"
 #include "src/camera/view_frame.h"

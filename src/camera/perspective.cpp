@@ -9,7 +9,8 @@ Perspective::Perspective(const CameraSettings& settings)
       pixels_per_tangent_(0.5 * settings.width_px / std::tan(radians(settings.fov_deg) / 2)) {}
 
 std::optional<media::Ray> Perspective::ray(double x, double y) const {
-  const Vec3 direction = frame_.to_world(x - 0.5 * width_px_, 0.5 * height_px_ - y, pixels_per_tangent_);
+  const Vec3 direction =
+      frame_.to_world(x - 0.5 * width_px_, 0.5 * height_px_ - y, pixels_per_tangent_);
   return media::Ray{frame_.position_m, normalize(direction)};
 }
 

@@ -13,7 +13,8 @@ struct ViewFrame {
 
   explicit ViewFrame(const CameraSettings& settings)
       : position_m(settings.position_m),
-        // From the azimuth and not from a cross product with the vertical: defined also straight up and down.
+        // From the azimuth and not from a cross product with the vertical: defined also straight up
+        // and down.
         right(std::cos(radians(settings.azimuth_deg)), -std::sin(radians(settings.azimuth_deg)), 0),
         forward(direction_of(settings.azimuth_deg, settings.elevation_deg)) {
     up = cross(right, forward);

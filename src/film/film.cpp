@@ -24,11 +24,13 @@ constexpr std::size_t colour_sums = 3, square_sums = 3;
 
 std::size_t sums_a_pixel_of(const FilmSettings& settings) {
   return colour_sums + (has(settings.channels, "variance") ? square_sums : 0) +
-         (has(settings.channels, "spectral") ? static_cast<std::size_t>(settings.spectral_bins) : 0);
+         (has(settings.channels, "spectral") ? static_cast<std::size_t>(settings.spectral_bins)
+                                             : 0);
 }
 
 double bin_width_nm(const FilmSettings& settings) {
-  return (longest_wavelength_nm - shortest_wavelength_nm) / static_cast<double>(settings.spectral_bins);
+  return (longest_wavelength_nm - shortest_wavelength_nm) /
+         static_cast<double>(settings.spectral_bins);
 }
 
 std::string bin_name(const FilmSettings& settings, std::size_t bin) {
@@ -39,8 +41,10 @@ std::string bin_name(const FilmSettings& settings, std::size_t bin) {
 }
 
 std::vector<double> allocated(std::size_t count, double bytes) {
-  const double memory = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
-  const std::string what = "no memory for the film of " + std::to_string(std::llround(bytes / 1e6)) + " MB";
+  const double memory =
+      static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+  const std::string what =
+      "no memory for the film of " + std::to_string(std::llround(bytes / 1e6)) + " MB";
   if (bytes > memory)
     throw cannot(what, "the machine has " + std::to_string(std::llround(memory / 1e6)) +
                            " MB; choose a smaller picture, fewer channels, or a crop");
@@ -54,18 +58,23 @@ std::vector<double> allocated(std::size_t count, double bytes) {
 }  // namespace
 
 void list_keys(Keys& keys, FilmSettings& film) {
-  keys.number("exposure_ev", film.exposure_ev, between(-100, 100),
-              "of the PNG, in stops; 0 shows a white matte surface that faces the sun as a bright white");
-  keys.word_or_number("white", film.white, {"auto", "D65", "equal_energy"}, between(1000, 1e5),
-                      "what is white: the sun's spectrum (auto), D65, equal_energy, or the temperature of a Planck "
-                      "radiator [K]");
-  keys.choices("channels", film.channels, {"rgb", "xyz", "variance", "spectral"}, "what the EXR holds");
-  if (film.channels.empty()) keys.refuse("channels", "an empty array", "at least one channel expected");
+  keys.number(
+      "exposure_ev", film.exposure_ev, between(-100, 100),
+      "of the PNG, in stops; 0 shows a white matte surface that faces the sun as a bright white");
+  keys.word_or_number(
+      "white", film.white, {"auto", "D65", "equal_energy"}, between(1000, 1e5),
+      "what is white: the sun's spectrum (auto), D65, equal_energy, or the temperature of a Planck "
+      "radiator [K]");
+  keys.choices("channels", film.channels, {"rgb", "xyz", "variance", "spectral"},
+               "what the EXR holds");
+  if (film.channels.empty())
+    keys.refuse("channels", "an empty array", "at least one channel expected");
   keys.integer("spectral_bins", film.spectral_bins, between(1, 400),
                "number of the spectral channels, equally wide over 380 to 780 nm");
 }
 
-Film::Film(int width_px, int height_px, PixelBox box, const FilmSettings& settings, const ToRgb& to_rgb)
+Film::Film(int width_px, int height_px, PixelBox box, const FilmSettings& settings,
+           const ToRgb& to_rgb)
     : width_px_(width_px),
       height_px_(height_px),
       box_(box),
@@ -74,14 +83,17 @@ Film::Film(int width_px, int height_px, PixelBox box, const FilmSettings& settin
       keeps_squares_(has(settings.channels, "variance")),
       keeps_bins_(has(settings.channels, "spectral")),
       sums_a_pixel_(sums_a_pixel_of(settings)),
-      sums_(allocated(box.pixels() * sums_a_pixel_, needed_bytes(static_cast<double>(box.pixels()), settings))),
+      sums_(allocated(box.pixels() * sums_a_pixel_,
+                      needed_bytes(static_cast<double>(box.pixels()), settings))),
       counts_(box.pixels()) {}
 
 double Film::needed_bytes(double pixels, const FilmSettings& settings) {
-  return pixels * static_cast<double>(sums_a_pixel_of(settings) * sizeof(double) + sizeof(std::uint32_t));
+  return pixels *
+         static_cast<double>(sums_a_pixel_of(settings) * sizeof(double) + sizeof(std::uint32_t));
 }
 
-void Film::add_sample(int x, int y, std::uint32_t sample, const Spectrum& radiance, const Wavelengths& wavelengths) {
+void Film::add_sample(int x, int y, std::uint32_t sample, const Spectrum& radiance,
+                      const Wavelengths& wavelengths) {
   if (!std::isfinite(radiance.sum())) return refuse(x, y, sample);
   const std::size_t p = pixel(x, y);
   double* sum = sums_.data() + p * sums_a_pixel_;
@@ -136,8 +148,9 @@ Image Film::rgb_image() const { return filled({"rgb"}); }
 Image Film::filled(const std::vector<std::string>& channels) const {
   const bool rgb = has(channels, "rgb"), xyz = has(channels, "xyz");
   const bool variance = keeps_squares_ && has(channels, "variance");
-  const std::size_t bins =
-      keeps_bins_ && has(channels, "spectral") ? static_cast<std::size_t>(settings_.spectral_bins) : 0;
+  const std::size_t bins = keeps_bins_ && has(channels, "spectral")
+                               ? static_cast<std::size_t>(settings_.spectral_bins)
+                               : 0;
   std::vector<std::string> names;
   if (rgb) names.insert(names.end(), {"R", "G", "B"});
   if (xyz) names.insert(names.end(), {"X", "Y", "Z"});

@@ -16,30 +16,34 @@
 namespace arcus::render {
 
 struct FilmSettings {
-  double exposure_ev = 0;              ///< of the PNG, in stops; the EXR is never exposed
-  std::string white = "auto";          ///< auto | D65 | equal_energy | a temperature in K; see white_of
-  std::vector<std::string> channels{"rgb"};  ///< rgb | xyz | variance | spectral, any number of them
-  long long spectral_bins = 20;        ///< of equal width over 380 to 780 nm
+  double exposure_ev = 0;      ///< of the PNG, in stops; the EXR is never exposed
+  std::string white = "auto";  ///< auto | D65 | equal_energy | a temperature in K; see white_of
+  std::vector<std::string> channels{
+      "rgb"};                    ///< rgb | xyz | variance | spectral, any number of them
+  long long spectral_bins = 20;  ///< of equal width over 380 to 780 nm
 };
 void list_keys(Keys& keys, FilmSettings& film);
 
 /// Samples that were not finite and were left out.
 struct RefusedSamples {
   std::uint64_t count = 0;
-  int x = 0, y = 0;          ///< the first pixel of those, in reading order (meaningless while count is 0)
+  int x = 0, y = 0;  ///< the first pixel of those, in reading order (meaningless while count is 0)
   std::uint32_t sample = 0;  ///< the first sample there
 };
 
 class Film {
  public:
-  /// An empty film of the pixels in `box`, part of a picture of width_px x height_px. Throws cannot() where the
-  /// machine has less memory than the film needs.
-  Film(int width_px, int height_px, PixelBox box, const FilmSettings& settings, const ToRgb& to_rgb);
+  /// An empty film of the pixels in `box`, part of a picture of width_px x height_px. Throws
+  /// cannot() where the machine has less memory than the film needs.
+  Film(int width_px, int height_px, PixelBox box, const FilmSettings& settings,
+       const ToRgb& to_rgb);
 
-  /// Adds the radiance that sample number `sample` of the pixel in column x and row y has found [W m-2 sr-1 nm-1].
-  /// A sample that is not finite is refused and counted. Different pixels may be filled at the same time; the
-  /// samples of one pixel must come from one thread at a time, in an order that does not depend on threads.
-  void add_sample(int x, int y, std::uint32_t sample, const Spectrum& radiance, const Wavelengths& wavelengths);
+  /// Adds the radiance that sample number `sample` of the pixel in column x and row y has found [W
+  /// m-2 sr-1 nm-1]. A sample that is not finite is refused and counted. Different pixels may be
+  /// filled at the same time; the samples of one pixel must come from one thread at a time, in an
+  /// order that does not depend on threads.
+  void add_sample(int x, int y, std::uint32_t sample, const Spectrum& radiance,
+                  const Wavelengths& wavelengths);
 
   int width_px() const { return width_px_; }
   int height_px() const { return height_px_; }
@@ -53,10 +57,12 @@ class Film {
   /// The picture so far, with the channels of the settings:
   ///   rgb       R, G, B: linear Rec.709 under the white that to_rgb was made for
   ///   xyz       X, Y, Z
-  ///   variance  variance.R, .G, .B: of the pixel's value (not of one sample), from the scatter of its samples as
-  ///             if they were independent; samples that are spread evenly are better than that. Infinite with
-  ///             one sample, 0 with none.
-  ///   spectral  S0.<centre>nm: mean radiance in a bin of wavelengths [W m-2 sr-1 nm-1], after Fichet et al.,
+  ///   variance  variance.R, .G, .B: of the pixel's value (not of one sample), from the scatter of
+  ///   its samples as
+  ///             if they were independent; samples that are spread evenly are better than that.
+  ///             Infinite with one sample, 0 with none.
+  ///   spectral  S0.<centre>nm: mean radiance in a bin of wavelengths [W m-2 sr-1 nm-1], after
+  ///   Fichet et al.,
   ///             "An OpenEXR Layout for Spectral Images", JCGT 10(3), 2021
   Image to_image() const;
   /// The picture so far with R, G, B alone.

@@ -21,7 +21,8 @@ struct PixelBox {
   bool operator==(const PixelBox&) const = default;
 };
 
-/// What is known about a picture: names with a text, a whole number or a number, in the order they were set.
+/// What is known about a picture: names with a text, a whole number or a number, in the order they
+/// were set.
 class Metadata {
  public:
   using Value = std::variant<std::string, int, double>;
@@ -64,8 +65,10 @@ class Image {
 
  private:
   std::size_t index(int x, int y, std::size_t channel) const {
-    const auto row = static_cast<std::size_t>(y - box_.y0), column = static_cast<std::size_t>(x - box_.x0);
-    return (row * static_cast<std::size_t>(box_.width()) + column) * channel_names_.size() + channel;
+    const auto row = static_cast<std::size_t>(y - box_.y0),
+               column = static_cast<std::size_t>(x - box_.x0);
+    return (row * static_cast<std::size_t>(box_.width()) + column) * channel_names_.size() +
+           channel;
   }
 
   int width_px_ = 0, height_px_ = 0;

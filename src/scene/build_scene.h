@@ -11,7 +11,7 @@
 namespace arcus::render {
 
 struct BuildOptions {
-  std::string cache_folder;                        ///< of phase tables; empty: the user's own
+  std::string cache_folder;                        ///< of phase tables; empty: they are not kept
   std::function<void(std::string_view)> log;       ///< told what takes time and what is doubtful
 };
 

@@ -11,7 +11,8 @@ void write_camera(Metadata& metadata, const CameraSettings& camera) {
   metadata.set("arcus:camera:position_z_m", camera.position_m.z);
   metadata.set("arcus:camera:azimuth_deg", camera.azimuth_deg);
   metadata.set("arcus:camera:elevation_deg", camera.elevation_deg);
-  metadata.set("arcus:camera:fov_deg", camera.fov_deg == 0 ? usual_fov_deg(camera.type) : camera.fov_deg);
+  metadata.set("arcus:camera:fov_deg",
+               camera.fov_deg == 0 ? usual_fov_deg(camera.type) : camera.fov_deg);
   metadata.set("arcus:camera:width_m", camera.width_m);
 }
 
@@ -33,11 +34,13 @@ void write_making_of(Metadata& metadata, const MakingOf& making) {
 std::optional<CameraSettings> read_camera(const Image& image) {
   const Metadata& metadata = image.metadata;
   const auto type = metadata.text("arcus:camera:type");
-  const auto x = metadata.number("arcus:camera:position_x_m"), y = metadata.number("arcus:camera:position_y_m"),
+  const auto x = metadata.number("arcus:camera:position_x_m"),
+             y = metadata.number("arcus:camera:position_y_m"),
              z = metadata.number("arcus:camera:position_z_m");
   const auto azimuth = metadata.number("arcus:camera:azimuth_deg"),
              elevation = metadata.number("arcus:camera:elevation_deg"),
-             fov = metadata.number("arcus:camera:fov_deg"), width = metadata.number("arcus:camera:width_m");
+             fov = metadata.number("arcus:camera:fov_deg"),
+             width = metadata.number("arcus:camera:width_m");
   if (!type || !x || !y || !z || !azimuth || !elevation || !fov || !width) return std::nullopt;
   CameraSettings camera;
   camera.type = *type;
