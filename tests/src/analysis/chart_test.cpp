@@ -22,13 +22,15 @@ TEST(Axis, LinearTicksAreRoundNumbers) {
   const Scale scale({"", false}, values, false);
   EXPECT_EQ(scale.low(), 0);
   EXPECT_EQ(scale.high(), 1);
-  EXPECT_EQ(labels_of(scale, 5), (std::vector<std::string>{"0.0", "0.2", "0.4", "0.6", "0.8", "1.0"}));
+  EXPECT_EQ(labels_of(scale, 5),
+            (std::vector<std::string>{"0.0", "0.2", "0.4", "0.6", "0.8", "1.0"}));
 }
 
 TEST(Axis, AnglesAreDividedAsACircleIs) {
   const std::vector<double> values{0, 180};
-  EXPECT_EQ(labels_of(Scale({"", false}, values, true), 9),
-            (std::vector<std::string>{"0", "20", "40", "60", "80", "100", "120", "140", "160", "180"}));
+  EXPECT_EQ(
+      labels_of(Scale({"", false}, values, true), 9),
+      (std::vector<std::string>{"0", "20", "40", "60", "80", "100", "120", "140", "160", "180"}));
   EXPECT_EQ(labels_of(Scale({"", false}, values, true), 6),
             (std::vector<std::string>{"0", "30", "60", "90", "120", "150", "180"}));
 }
@@ -38,7 +40,8 @@ TEST(Axis, LogarithmicTicksArePowersOfTenAndIgnoreWhatHasNoLogarithm) {
   const Scale scale({"", true}, values, false);
   EXPECT_NEAR(scale.low(), 1e-3, 1e-15);
   EXPECT_NEAR(scale.high(), 100, 1e-12);
-  EXPECT_EQ(labels_of(scale, 6), (std::vector<std::string>{"10⁻³", "10⁻²", "10⁻¹", "10⁰", "10¹", "10²"}));
+  EXPECT_EQ(labels_of(scale, 6),
+            (std::vector<std::string>{"10⁻³", "10⁻²", "10⁻¹", "10⁰", "10¹", "10²"}));
   EXPECT_FALSE(scale.position(0));
   EXPECT_NEAR(*scale.position(1), 0.6, 1e-12);
 }
@@ -61,7 +64,8 @@ TEST(Chart, IsAPngOfTwicePointsWhateverTheData) {
   LineChart chart;
   chart.title = "Nothing but trouble";
   chart.y_axis.is_logarithmic = true;
-  chart.lines.push_back({"odd", {0, 1, 2, 3}, {0, std::nan(""), -1, 1e300}, {1, 1, 1, 1}, {1, 0, 0}});
+  chart.lines.push_back(
+      {"odd", {0, 1, 2, 3}, {0, std::nan(""), -1, 1e300}, {1, 1, 1, 1}, {1, 0, 0}});
   chart.lines.push_back({"empty", {}, {}, {}, {0, 0, 1}});
   chart.strips.push_back({"colours", {0, 3}, {{1, 0, 0}, {-1, 2, 7}}});
   chart.marks.push_back({99, "outside"});
@@ -83,7 +87,8 @@ TEST(Chart, IsAPngOfTwicePointsWhateverTheData) {
 }
 
 TEST(Chart, WavelengthsHaveTheirColours) {
-  const Ink red = ink_of_wavelength(640), green = ink_of_wavelength(530), blue = ink_of_wavelength(450);
+  const Ink red = ink_of_wavelength(640), green = ink_of_wavelength(530),
+            blue = ink_of_wavelength(450);
   EXPECT_GT(red.r, red.g + 0.3);
   EXPECT_GT(green.g, green.r + 0.2);
   EXPECT_GT(blue.b, blue.r + 0.2);

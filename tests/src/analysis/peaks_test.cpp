@@ -13,7 +13,9 @@ std::vector<double> axis(double from, double to, double step) {
   return x;
 }
 
-double bump(double x, double at, double width) { return std::exp(-0.5 * std::pow((x - at) / width, 2)); }
+double bump(double x, double at, double width) {
+  return std::exp(-0.5 * std::pow((x - at) / width, 2));
+}
 
 }  // namespace
 
@@ -44,7 +46,8 @@ TEST(Peaks, EndsConstantsAndTooFewPointsHaveNone) {
 }
 
 TEST(Peaks, APlateauIsOnePeakInItsMiddle) {
-  const auto peaks = find_peaks(std::vector<double>{0, 1, 2, 3, 4, 5}, std::vector<double>{0, 0, 1, 1, 0, 0}, {});
+  const auto peaks =
+      find_peaks(std::vector<double>{0, 1, 2, 3, 4, 5}, std::vector<double>{0, 0, 1, 1, 0, 0}, {});
   ASSERT_EQ(peaks.size(), 1u);
   EXPECT_NEAR(peaks[0].position, 2.5, 1e-9);
 }

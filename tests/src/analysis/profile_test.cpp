@@ -22,7 +22,9 @@ std::string message_of(const Image& image, const ProfileSettings& settings) {
   return "no error";
 }
 
-bool contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
+bool contains(const std::string& text, std::string_view part) {
+  return text.find(part) != std::string::npos;
+}
 
 }  // namespace
 
@@ -35,8 +37,10 @@ TEST(Profile, FindsTheRadiusOfARingInEveryKindOfPicture) {
     for (std::size_t c = 0; c < 3; ++c) {
       const auto peaks = peaks_of(profile, profile.channels[c]);
       ASSERT_EQ(peaks.size(), 1u) << camera.type;
-      EXPECT_NEAR(peaks[0].position, RingPicture::radius_deg(c), 0.02) << camera.type << " bins " << profile.bin_deg;
-      EXPECT_NEAR(peaks[0].prominence, 1, 0.16) << camera.type;  // pixels of 0.56 degrees blur a ring of 0.5
+      EXPECT_NEAR(peaks[0].position, RingPicture::radius_deg(c), 0.02)
+          << camera.type << " bins " << profile.bin_deg;
+      EXPECT_NEAR(peaks[0].prominence, 1, 0.16)
+          << camera.type;  // pixels of 0.56 degrees blur a ring of 0.5
     }
     EXPECT_EQ(profile.scattering, Profile::Scattering::supplement);
   }
@@ -45,14 +49,20 @@ TEST(Profile, FindsTheRadiusOfARingInEveryKindOfPicture) {
 TEST(Profile, SectorsOfARingAgreeAndShareThePixels) {
   const RingPicture ring{camera_towards_antisolar("perspective", 100, 300, 240)};
   const Image image = ring.made();
-  const Profile whole = measure_profile(image, {.bin_deg = 0.5, .from_deg = 30, .to_deg = 50}, "ring");
+  const Profile whole =
+      measure_profile(image, {.bin_deg = 0.5, .from_deg = 30, .to_deg = 50}, "ring");
   const Profile left = measure_profile(
-      image, {.bin_deg = 0.5, .from_deg = 30, .to_deg = 50, .sector_from_deg = 180, .sector_to_deg = 0}, "ring");
+      image,
+      {.bin_deg = 0.5, .from_deg = 30, .to_deg = 50, .sector_from_deg = 180, .sector_to_deg = 0},
+      "ring");
   const Profile right = measure_profile(
-      image, {.bin_deg = 0.5, .from_deg = 30, .to_deg = 50, .sector_from_deg = 0, .sector_to_deg = 180}, "ring");
+      image,
+      {.bin_deg = 0.5, .from_deg = 30, .to_deg = 50, .sector_from_deg = 0, .sector_to_deg = 180},
+      "ring");
   ASSERT_EQ(left.angle_deg.size(), right.angle_deg.size());
   for (std::size_t i = 0; i < left.angle_deg.size(); ++i) {
-    EXPECT_NEAR(left.channels[0].mean[i], right.channels[0].mean[i], 0.02);  // pixels are not equally wide
+    EXPECT_NEAR(left.channels[0].mean[i], right.channels[0].mean[i],
+                0.02);  // pixels are not equally wide
     EXPECT_NEAR(left.solid_angle_sr[i] + right.solid_angle_sr[i], whole.solid_angle_sr[i], 1e-12);
   }
 }
@@ -66,8 +76,9 @@ TEST(Profile, PositionAnglesCountFromUpToTheRight) {
   write_camera(image.metadata, camera);
   image.value(80, 50, 0) = 1;
   const auto mean = [&](double from, double to) {
-    const Profile p = measure_profile(image, {.around = "30,10", .bin_deg = 100, .sector_from_deg = from,
-                                              .sector_to_deg = to}, "p");
+    const Profile p = measure_profile(
+        image, {.around = "30,10", .bin_deg = 100, .sector_from_deg = from, .sector_to_deg = to},
+        "p");
     return p.channels[0].mean[0];
   };
   EXPECT_GT(mean(60, 120), 0);
@@ -79,8 +90,12 @@ TEST(Profile, PositionAnglesCountFromUpToTheRight) {
   camera.elevation_deg = 90;
   write_camera(image.metadata, camera);
   const auto about_zenith = [&](double from, double to) {
-    return measure_profile(image, {.around = "zenith", .bin_deg = 100, .sector_from_deg = from, .sector_to_deg = to}, "p")
-        .channels[0].mean[0];
+    return measure_profile(
+               image,
+               {.around = "zenith", .bin_deg = 100, .sector_from_deg = from, .sector_to_deg = to},
+               "p")
+        .channels[0]
+        .mean[0];
   };
   EXPECT_GT(about_zenith(80, 100), 0);
   EXPECT_EQ(about_zenith(260, 280), 0);
@@ -109,10 +124,13 @@ TEST(Profile, StandardErrorsFromVarianceChannelsExplainTheNoise) {
   double sum = 0, count = 0;
   for (std::size_t c = 0; c < 3; ++c)
     for (std::size_t i = 0; i < truth.angle_deg.size(); ++i) {
-      sum += std::pow((noisy.channels[c].mean[i] - truth.channels[c].mean[i]) / noisy.channels[c].standard_error[i], 2);
+      sum += std::pow((noisy.channels[c].mean[i] - truth.channels[c].mean[i]) /
+                          noisy.channels[c].standard_error[i],
+                      2);
       ++count;
     }
-  // Neighbouring bins share pixels, so fewer values are independent than bins; errors 10 % wrong would show.
+  // Neighbouring bins share pixels, so fewer values are independent than bins; errors 10 % wrong
+  // would show.
   EXPECT_GT(count, 400);
   EXPECT_NEAR(std::sqrt(sum / count), 1, 0.08);
 }
@@ -127,7 +145,9 @@ TEST(Profile, StandardErrorsFromScatterAgreeWithThoseFromVariance) {
   const Profile by_scatter = measure_profile(ring.made(), flat, "p");
   EXPECT_EQ(by_scatter.error_source, Profile::ErrorSource::scatter);
   for (std::size_t i = 0; i < by_scatter.angle_deg.size(); ++i)
-    EXPECT_NEAR(by_scatter.channels[0].standard_error[i] / by_variance.channels[0].standard_error[i], 1, 0.15);
+    EXPECT_NEAR(
+        by_scatter.channels[0].standard_error[i] / by_variance.channels[0].standard_error[i], 1,
+        0.15);
 }
 
 TEST(Profile, CropMeasuresTheSameAsTheWhole) {
@@ -148,9 +168,10 @@ TEST(Profile, CsvHasAColumnForEachChannelAndReadsBack) {
   const RingPicture ring{camera_towards_antisolar("perspective", 60, 60, 40)};
   const Profile profile = measure_profile(ring.made(), {}, "p");
   const Columns table = read_columns(csv_of(profile, "ring.exr"), "csv");
-  EXPECT_EQ(table.names, (std::vector<std::string>{"angle_deg", "scattering_angle_deg", "solid_angle_sr", "pixels", "R",
-                                                   "R_standard_error", "G", "G_standard_error", "B",
-                                                   "B_standard_error"}));
+  EXPECT_EQ(table.names,
+            (std::vector<std::string>{"angle_deg", "scattering_angle_deg", "solid_angle_sr",
+                                      "pixels", "R", "R_standard_error", "G", "G_standard_error",
+                                      "B", "B_standard_error"}));
   ASSERT_EQ(table.columns[0].size(), profile.angle_deg.size());
   for (std::size_t i = 0; i < profile.angle_deg.size(); ++i) {
     EXPECT_NEAR(table.named("angle_deg")[i] + table.named("scattering_angle_deg")[i], 180, 1e-7);
@@ -163,7 +184,8 @@ TEST(Profile, WhatCannotBeMeasuredIsBadInput) {
   Image image = ring.made();
   EXPECT_TRUE(contains(message_of(image, {.around = "moon"}), "sun, antisolar, zenith"));
   EXPECT_TRUE(contains(message_of(image, {.around = "10,95"}), "--around"));
-  EXPECT_TRUE(contains(message_of(image, {.around = "sun", .to_deg = 20}), "no pixel between 0 and 20 degrees"));
+  EXPECT_TRUE(contains(message_of(image, {.around = "sun", .to_deg = 20}),
+                       "no pixel between 0 and 20 degrees"));
   EXPECT_TRUE(contains(message_of(image, {.from_deg = 20, .to_deg = 10}), "ascending"));
   EXPECT_TRUE(contains(message_of(image, {.bin_deg = 1e-9}), "million"));
   Image bare(4, 4, {"R"});

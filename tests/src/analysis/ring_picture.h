@@ -14,12 +14,14 @@ namespace arcus::render {
 struct RingPicture {
   CameraSettings camera;
   SunPlace sun{180, 20, 0.2666};
-  double width_deg = 0.5;       ///< standard deviation of the ring across
-  double noise = 0;             ///< standard deviation of a pixel; known in the variance channels
+  double width_deg = 0.5;  ///< standard deviation of the ring across
+  double noise = 0;        ///< standard deviation of a pixel; known in the variance channels
   bool has_variance = false;
   std::uint64_t seed = 1;
 
-  static double radius_deg(std::size_t channel) { return 42.31 - 0.6 * static_cast<double>(channel); }
+  static double radius_deg(std::size_t channel) {
+    return 42.31 - 0.6 * static_cast<double>(channel);
+  }
   double value_at(double angle_deg, std::size_t channel) const {
     return 0.2 + std::exp(-0.5 * std::pow((angle_deg - radius_deg(channel)) / width_deg, 2));
   }
@@ -44,7 +46,8 @@ struct RingPicture {
   }
 
  private:
-  void add_mean_over_pixel(const Camera& eye, const Vec3& antisolar, int x, int y, Image& image) const {
+  void add_mean_over_pixel(const Camera& eye, const Vec3& antisolar, int x, int y,
+                           Image& image) const {
     constexpr int n = 3;
     for (int k = 0; k < n * n; ++k) {
       const auto ray = eye.ray(x + (k % n + 0.5) / n, y + (k / n + 0.5) / n);
@@ -56,14 +59,16 @@ struct RingPicture {
   }
   double noise_at(int x, int y, std::size_t channel) const {
     if (noise == 0) return 0;
-    Random random(seed, static_cast<std::uint64_t>(y * camera.width_px + x), static_cast<std::uint32_t>(channel));
+    Random random(seed, static_cast<std::uint64_t>(y * camera.width_px + x),
+                  static_cast<std::uint32_t>(channel));
     // Box and Muller's transform of two uniform numbers.
     const double u = 1 - random.uniform_double(), v = random.uniform_double();
     return noise * std::sqrt(-2 * std::log(u)) * std::cos(2 * pi * v);
   }
 };
 
-inline CameraSettings camera_towards_antisolar(const std::string& type, double fov_deg, int width_px, int height_px) {
+inline CameraSettings camera_towards_antisolar(const std::string& type, double fov_deg,
+                                               int width_px, int height_px) {
   CameraSettings camera;
   camera.type = type;
   camera.elevation_deg = 5;

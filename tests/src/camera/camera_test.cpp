@@ -35,7 +35,9 @@ std::string message_of(const std::string& toml) {
   return "no error";
 }
 
-bool contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
+bool contains(const std::string& text, std::string_view part) {
+  return text.find(part) != std::string::npos;
+}
 
 }  // namespace
 
@@ -53,7 +55,8 @@ TEST_P(EveryCamera, RaysGoBackToTheImagePointTheyCameFrom) {
       if (!ray) continue;
       ++rays;
       EXPECT_NEAR(length(ray->direction), 1, 1e-14);
-      const auto point = camera->image_point(ray->origin_m + ray->direction * (5000 * random.uniform_double() + 1));
+      const auto point = camera->image_point(ray->origin_m +
+                                             ray->direction * (5000 * random.uniform_double() + 1));
       ASSERT_TRUE(point) << x << " " << y;
       EXPECT_NEAR(point->x, x, 1e-7);
       EXPECT_NEAR(point->y, y, 1e-7);
@@ -72,9 +75,11 @@ TEST_P(EveryCamera, LooksAlongAzimuthAndElevationThroughItsCentre) {
 }
 
 TEST_P(EveryCamera, ShowsTheRightHandSideToTheRightAndRowZeroAtTheTop) {
-  const auto camera = make_camera(settings_of(GetParam(), 0, 0));  // north: right is east = +x, up is +z
+  const auto camera =
+      make_camera(settings_of(GetParam(), 0, 0));  // north: right is east = +x, up is +z
   const Vec3 ahead = Vec3(1000, -2000, 30) + Vec3(0, 100, 0);
-  const auto right = camera->image_point(ahead + Vec3(5, 0, 0)), up = camera->image_point(ahead + Vec3(0, 0, 5));
+  const auto right = camera->image_point(ahead + Vec3(5, 0, 0)),
+             up = camera->image_point(ahead + Vec3(0, 0, 5));
   ASSERT_TRUE(right && up);
   EXPECT_GT(right->x, 200.5);
   EXPECT_NEAR(right->y, 150, 1e-9);
@@ -85,21 +90,25 @@ TEST_P(EveryCamera, ShowsTheRightHandSideToTheRightAndRowZeroAtTheTop) {
 TEST_P(EveryCamera, LookingStraightUpWithAzimuthZeroHasEastOnTheRightAndSouthAtTheTop) {
   const auto camera = make_camera(settings_of(GetParam(), 0, 90));
   const Vec3 above = Vec3(1000, -2000, 30) + Vec3(0, 0, 100);
-  const auto east = camera->image_point(above + Vec3(5, 0, 0)), south = camera->image_point(above + Vec3(0, -5, 0));
+  const auto east = camera->image_point(above + Vec3(5, 0, 0)),
+             south = camera->image_point(above + Vec3(0, -5, 0));
   ASSERT_TRUE(east && south);
   EXPECT_GT(east->x, 200.5);
   EXPECT_LT(south->y, 149.5);
 }
 
 INSTANTIATE_TEST_SUITE_P(Camera, EveryCamera,
-                         testing::Values("perspective", "orthographic", "fisheye", "equirectangular"),
+                         testing::Values("perspective", "orthographic", "fisheye",
+                                         "equirectangular"),
                          [](const auto& info) { return info.param; });
 
 TEST(Perspective, FieldOfViewIsAcrossTheWidth) {
   CameraSettings settings = settings_of("perspective", 0, 0);
   settings.fov_deg = 60;
   const auto camera = make_camera(settings);
-  EXPECT_NEAR(degrees(angle_between_rad(camera->ray(0, 150)->direction, camera->ray(400, 150)->direction)), 60, 1e-10);
+  EXPECT_NEAR(
+      degrees(angle_between_rad(camera->ray(0, 150)->direction, camera->ray(400, 150)->direction)),
+      60, 1e-10);
   EXPECT_FALSE(camera->image_point(settings.position_m + Vec3(0, -10, 0))) << "behind";
   EXPECT_FALSE(camera->image_point(settings.position_m + Vec3(10, 10, 0))) << "beside the picture";
 }
@@ -120,7 +129,8 @@ TEST(Fisheye, IsEquidistantInTheLargestCircleAndEmptyOutside) {
   EXPECT_NEAR(degrees(angle_between_rad(camera->ray(200, 75)->direction, {0, 0, 1})), 45, 1e-10);
   EXPECT_NEAR(degrees(angle_between_rad(camera->ray(200, 0)->direction, {0, 0, 1})), 90, 1e-10);
   EXPECT_FALSE(camera->ray(200 + 150.001, 150));
-  EXPECT_FALSE(camera->image_point(settings.position_m + Vec3(0, 10, -0.01))) << "below the horizon";
+  EXPECT_FALSE(camera->image_point(settings.position_m + Vec3(0, 10, -0.01)))
+      << "below the horizon";
 }
 
 TEST(Fisheye, ThreeHundredSixtyDegreesShowTheDirectionBehind) {
@@ -142,28 +152,31 @@ TEST(Equirectangular, FullPanoramaHasThePolesAtTopAndBottomAndNorthInTheMiddle) 
 }
 
 TEST(CameraSettings, LookAtBecomesAzimuthAndElevation) {
-  const auto settings =
-      settings_from_text<CameraSettings>("position_m = [1, 2, 3]\nlook_at_m = [11, 12, 3]\n", "scene.toml");
+  const auto settings = settings_from_text<CameraSettings>(
+      "position_m = [1, 2, 3]\nlook_at_m = [11, 12, 3]\n", "scene.toml");
   EXPECT_NEAR(settings.azimuth_deg, 45, 1e-12);
   EXPECT_NEAR(settings.elevation_deg, 0, 1e-12);
-  const auto up = settings_from_text<CameraSettings>("position_m = [0, 0, 0]\nlook_at_m = [0, 0, 3]\n", "scene.toml");
+  const auto up = settings_from_text<CameraSettings>(
+      "position_m = [0, 0, 0]\nlook_at_m = [0, 0, 3]\n", "scene.toml");
   EXPECT_EQ(up.elevation_deg, 90);
   EXPECT_EQ(up.azimuth_deg, 0);
-  EXPECT_TRUE(contains(message_of("azimuth_deg = 3\nlook_at_m = [0, 0, 3]\n"), "scene.toml:2:13: look_at_m"));
+  EXPECT_TRUE(contains(message_of("azimuth_deg = 3\nlook_at_m = [0, 0, 3]\n"),
+                       "scene.toml:2:13: look_at_m"));
   EXPECT_TRUE(contains(message_of("look_at_m = [0, 0, 1.7]\n"), "own position"));
   EXPECT_TRUE(contains(message_of("look_at_m = [0, 1]\n"), "must be [x, y, z]"));
 }
 
 TEST(CameraSettings, WritingAndReadingGivesTheSameText) {
-  const auto settings =
-      settings_from_text<CameraSettings>("type = 'fisheye'\nlook_at_m = [0.1, 7, 3]\n", "scene.toml");
+  const auto settings = settings_from_text<CameraSettings>(
+      "type = 'fisheye'\nlook_at_m = [0.1, 7, 3]\n", "scene.toml");
   EXPECT_EQ(settings.fov_deg, 180);
   const std::string text = text_of(settings);
   EXPECT_EQ(text_of(settings_from_text<CameraSettings>(text, "copy")), text);
 }
 
 TEST(CameraSettings, ImpossiblePicturesAreBadInput) {
-  EXPECT_TRUE(contains(message_of("resolution = [0, 100]\n"), "scene.toml:1:15: resolution: 0 found"))
+  EXPECT_TRUE(
+      contains(message_of("resolution = [0, 100]\n"), "scene.toml:1:15: resolution: 0 found"))
       << message_of("resolution = [0, 100]\n");
   EXPECT_TRUE(contains(message_of("resolution = [10.5, 100]\n"), "whole numbers"));
   const std::string huge = message_of("resolution = [50000, 20000]\n");

@@ -14,7 +14,8 @@ Xyz mean_of_samples(const std::function<double(double)>& spectrum, int count) {
   for (int i = 0; i < count; ++i) {
     const Wavelengths wavelengths = draw_wavelengths((i + 0.5) / count);
     Spectrum radiance;
-    for (int k = 0; k < wavelength_count; ++k) radiance[k] = static_cast<float>(spectrum(wavelengths[k]));
+    for (int k = 0; k < wavelength_count; ++k)
+      radiance[k] = static_cast<float>(spectrum(wavelengths[k]));
     sum += xyz_of_sample(radiance, wavelengths);
   }
   return sum * (1.0 / count);
@@ -40,7 +41,8 @@ TEST(Colour, ExpectationOfASampleIsTheIntegralOfTheSpectrum) {
   const auto flat = [](double) { return 3.0; };
   const auto steep = [](double nm) { return std::exp((nm - 500) / 60); };
   const auto line = [](double nm) { return std::exp(-0.5 * std::pow((nm - 611) / 4, 2)); };
-  for (const std::function<double(double)>& spectrum : {std::function<double(double)>(flat), {steep}, {line}}) {
+  for (const std::function<double(double)>& spectrum :
+       {std::function<double(double)>(flat), {steep}, {line}}) {
     const Xyz expected = xyz_of(spectrum), mean = mean_of_samples(spectrum, 40000);
     EXPECT_NEAR(mean.x / expected.x, 1, 2e-6);
     EXPECT_NEAR(mean.y / expected.y, 1, 2e-6);
@@ -52,7 +54,8 @@ TEST(Colour, ExpectationOfASampleIsTheIntegralOfTheSpectrum) {
 TEST(Colour, GreyLightUnderAnEqualEnergySunIsGreyForAutoAndEqualEnergy) {
   const Xyz sun = xyz_of([](double) { return 1.0; });
   for (const char* setting : {"auto", "equal_energy"}) {
-    const Rgb c = to_rgb_from_white(white_of(setting, sun))(mean_of_samples([](double) { return 0.25; }, 40000));
+    const Rgb c = to_rgb_from_white(white_of(setting, sun))(
+        mean_of_samples([](double) { return 0.25; }, 40000));
     expect_grey(c, 0.25, 0.25e-6);
   }
 }
@@ -71,7 +74,8 @@ TEST(Colour, D65AndPlanckHaveTheirPublishedChromaticities) {
   const Xyz d65 = d65_white();
   EXPECT_NEAR(x_of(d65), 0.31272, 1e-4);  // CIE 015:2018, table T.3
   EXPECT_NEAR(y_of(d65), 0.32903, 1e-4);
-  // Illuminant A is by definition a Planck radiator of 2856 K in the temperature scale of today (c2 = 1.4388e-2 m K).
+  // Illuminant A is by definition a Planck radiator of 2856 K in the temperature scale of today (c2
+  // = 1.4388e-2 m K).
   EXPECT_NEAR(x_of(planck_white(2855.54)), 0.44758, 1e-4);
   EXPECT_NEAR(y_of(planck_white(2855.54)), 0.40745, 1e-4);
 }
@@ -91,7 +95,8 @@ TEST(Colour, BradfordMatrixFromEqualEnergyToD65IsThePublishedOne) {
   const double adaptation[3][3] = {{0.9531874, -0.0265906, 0.0238731},
                                    {-0.0382467, 1.0288406, 0.0094060},
                                    {0.0026068, -0.0030332, 1.0892565}};
-  const ToRgb adapted = to_rgb_from_white({1, 1, 1}), plain = to_rgb_from_white({0.3127 / 0.3290, 1, 0.3583 / 0.3290});
+  const ToRgb adapted = to_rgb_from_white({1, 1, 1}),
+              plain = to_rgb_from_white({0.3127 / 0.3290, 1, 0.3583 / 0.3290});
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) {
       double product = 0;

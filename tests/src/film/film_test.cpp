@@ -134,7 +134,8 @@ TEST(FilmSettings, WhiteIsAWordOrATemperature) {
     const std::string written = text_of(settings_from_text<FilmSettings>(text, "scene.toml"));
     EXPECT_EQ(text_of(settings_from_text<FilmSettings>(written, "copy")), written);
   }
-  for (const char* text : {"white = 'D56'\n", "white = 20\n", "channels = []\n", "channels = ['rgba']\n"})
+  for (const char* text :
+       {"white = 'D56'\n", "white = 20\n", "channels = []\n", "channels = ['rgba']\n"})
     EXPECT_THROW(settings_from_text<FilmSettings>(text, "scene.toml"), Error) << text;
 }
 

@@ -29,8 +29,8 @@ class ImageFile : public testing::Test {
   ~ImageFile() override { std::filesystem::remove_all(folder_); }
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
   std::size_t files() const {
-    return static_cast<std::size_t>(
-        std::distance(std::filesystem::directory_iterator(folder_), std::filesystem::directory_iterator()));
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder_),
+                                                  std::filesystem::directory_iterator()));
   }
 
  private:
@@ -79,11 +79,14 @@ TEST_F(ImageFile, ExrKeepsEveryChannelItsPlaceAndAllMetadata) {
     ASSERT_TRUE(copy.channel(name)) << name;
     for (int y = 10; y < 28; ++y)
       for (int x = 5; x < 37; ++x)
-        ASSERT_EQ(copy.value(x, y, *copy.channel(name)), image.value(x, y, *image.channel(name))) << name;
+        ASSERT_EQ(copy.value(x, y, *copy.channel(name)), image.value(x, y, *image.channel(name)))
+            << name;
   }
   for (const auto& [name, value] : image.metadata.entries()) {
-    if (const auto* text = std::get_if<std::string>(&value)) EXPECT_EQ(copy.metadata.text(name), *text);
-    else EXPECT_EQ(copy.metadata.number(name), image.metadata.number(name)) << name;
+    if (const auto* text = std::get_if<std::string>(&value))
+      EXPECT_EQ(copy.metadata.text(name), *text);
+    else
+      EXPECT_EQ(copy.metadata.number(name), image.metadata.number(name)) << name;
   }
 }
 
@@ -99,25 +102,37 @@ TEST_F(ImageFile, CutOffOrForeignOrMissingFilesAreBadInput) {
   for (const double share : {0.0, 0.001, 0.05, 0.3, 0.9, 0.999}) {
     const auto length = static_cast<std::size_t>(share * static_cast<double>(bytes.size()));
     std::ofstream(path("part.exr"), std::ios::binary) << bytes.substr(0, length);
-    expect_fault(Fault::input, [&] { read_exr(path("part.exr")); }, "part.exr");
+    expect_fault(
+        Fault::input, [&] { read_exr(path("part.exr")); }, "part.exr");
   }
   std::ofstream(path("words.exr")) << "This is no picture, it only is called one.\n";
-  expect_fault(Fault::input, [&] { read_exr(path("words.exr")); }, "words.exr");
-  expect_fault(Fault::input, [&] { read_exr(path("missing.exr")); }, "missing.exr");
+  expect_fault(
+      Fault::input, [&] { read_exr(path("words.exr")); }, "words.exr");
+  expect_fault(
+      Fault::input, [&] { read_exr(path("missing.exr")); }, "missing.exr");
   write_png(path("a.png"), {2, 1, {0, 1, 2, 3, 4, 5}});
-  expect_fault(Fault::input, [&] { read_exr(path("a.png")); }, "png");
+  expect_fault(
+      Fault::input, [&] { read_exr(path("a.png")); }, "png");
 }
 
 TEST_F(ImageFile, OutputThatCannotBeWrittenIsAFailureAndLeavesNothing) {
-  expect_fault(Fault::failed, [&] { write_exr(path("no/such/folder/a.exr"), example()); }, "cannot write");
-  expect_fault(Fault::failed, [&] { write_png(path("no/such/folder/a.png"), {1, 1, {0, 0, 0}}); }, "cannot write");
+  expect_fault(
+      Fault::failed, [&] { write_exr(path("no/such/folder/a.exr"), example()); }, "cannot write");
+  expect_fault(
+      Fault::failed,
+      [&] {
+        write_png(path("no/such/folder/a.png"), {1, 1, {0, 0, 0}});
+      },
+      "cannot write");
   std::filesystem::create_directory(path("folder.exr"));
-  expect_fault(Fault::failed, [&] { write_exr(path("folder.exr"), example()); }, "folder");
+  expect_fault(
+      Fault::failed, [&] { write_exr(path("folder.exr"), example()); }, "folder");
   EXPECT_EQ(files(), 1u);
 }
 
 TEST_F(ImageFile, DiskThatFillsUpIsAFailureAndLeavesNothing) {
-  // A limit on the size of files stands for the full disk; the signal that comes with it is ignored.
+  // A limit on the size of files stands for the full disk; the signal that comes with it is
+  // ignored.
   struct rlimit before {};
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
   auto* handler = std::signal(SIGXFSZ, SIG_IGN);
@@ -126,8 +141,10 @@ TEST_F(ImageFile, DiskThatFillsUpIsAFailureAndLeavesNothing) {
   Image image(400, 300, {"R", "G"});
   Random random(3, 3, 3);
   for (float& value : image.values()) value = random.uniform();
-  expect_fault(Fault::failed, [&] { write_exr(path("a.exr"), image); }, "cannot write");
-  expect_fault(Fault::failed, [&] { write_png(path("a.png"), noise_picture()); }, "cannot write");
+  expect_fault(
+      Fault::failed, [&] { write_exr(path("a.exr"), image); }, "cannot write");
+  expect_fault(
+      Fault::failed, [&] { write_png(path("a.png"), noise_picture()); }, "cannot write");
   ::setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, handler);
   EXPECT_EQ(files(), 0u);

@@ -40,7 +40,8 @@ TEST(Tone, HighlightsStayBelowOneInOrderAndKeepTheirHue) {
     before = c.r;
   }
   EXPECT_NEAR(display_linear({1, 1, 1}).g, 0.8, 1e-12) << "the reference";
-  EXPECT_NEAR(display_linear({0.6 + 1e-6, 0, 0}).r, 0.6 + 1e-6, 1e-10) << "continuous with its slope";
+  EXPECT_NEAR(display_linear({0.6 + 1e-6, 0, 0}).r, 0.6 + 1e-6, 1e-10)
+      << "continuous with its slope";
 }
 
 TEST(Tone, SrgbCurveHasItsStandardValues) {
