@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "phase/base/units.h"
@@ -58,5 +59,16 @@ void clip_forward(const std::vector<double>& angle_deg, double forward_angle_deg
   for (std::size_t i = 0; i < edge; ++i)
     if (p11[i] > p11[edge]) p11[i] = p11[edge];
 }
+
+/// Integral over the sphere of values at the angle nodes [1/sr], linear in s = sin²(θ/2) between them.
+double sphere_integral(const std::vector<double>& angle_deg, const float* values);
+
+/// Mean over the same function of the cosine of the scattering angle, times its integral.
+double sphere_integral_of_cosine(const std::vector<double>& angle_deg, const float* values);
+
+/// Throws bad_input with `where` unless the table is one that can be rendered: axes ascending, angles from 0 to 180
+/// degrees, arrays as long as they must be, all values finite, cross-sections above 0, forward fraction from 0 to
+/// below 1, p11 not negative and its integral 1 within 1e-4.
+void check_table(const ScatteringTable& table, const std::string& where);
 
 }  // namespace arcus::phase
