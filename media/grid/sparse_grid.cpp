@@ -65,6 +65,18 @@ SparseGrid::Range SparseGrid::range(const IndexBox& box, bool exact) const {
   return range;
 }
 
+SparseGrid::Range SparseGrid::size_range() const {
+  Range range{0, 0};
+  if (!has_size()) return range;
+  for (std::size_t i = 0; i < values_.size(); i += 2) {
+    const float extinction = values_[i], size = values_[i + 1];
+    if (!(extinction > 0)) continue;
+    range.smallest = range.largest == 0 ? size : std::min(range.smallest, size);
+    range.largest = std::max(range.largest, size);
+  }
+  return range;
+}
+
 std::size_t SparseGrid::memory_bytes() const {
   return values_.bytes() + (root_.size() + tables_.size()) * 4 + brick_ranges_.size() * sizeof(Range);
 }

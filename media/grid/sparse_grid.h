@@ -53,6 +53,8 @@ class SparseGrid {
   };
   Range range(const IndexBox& box, bool exact) const;
   float largest_extinction() const { return largest_; }
+  /// Sizes of the voxels whose extinction is above 0; zeros without sizes or without such voxels.
+  Range size_range() const;
   std::size_t brick_count() const { return brick_ranges_.size(); }
   std::size_t memory_bytes() const;
 
