@@ -17,7 +17,8 @@ constexpr int series_terms = 4;
 
 double square(double x) { return x * x; }
 
-/// ∫ (1 − u²)^(k/2) u^(2p) du over [−1, 1], a beta function, times the coefficient of x^p in 1/√(1 − x).
+/// ∫ (1 − u²)^(k/2) u^(2p) du over [−1, 1], a beta function, times the coefficient of y^p in
+/// 1/√(1 − y).
 struct SeriesIntegrals {
   double value[powers][series_terms];
   SeriesIntegrals() {
@@ -31,54 +32,72 @@ struct SeriesIntegrals {
   }
 };
 
+/// Midpoints of a quarter turn; they integrate smooth periodic functions to all digits.
+struct QuarterTurn {
+  static constexpr int points = 24;
+  double sine_squared[points], cosine[points];
+  QuarterTurn() {
+    for (int i = 0; i < points; ++i) {
+      const double angle = (i + 0.5) * pi / (2 * points);
+      sine_squared[i] = square(std::sin(angle));
+      cosine[i] = std::cos(angle);
+    }
+  }
+};
+
 /// What the rings around the outgoing direction see of a disc whose centre is at an angle θ from it.
 class DiscRings {
  public:
   DiscRings(double theta_rad, double disc_radius_rad)
-      : theta_(theta_rad), sine_(std::sin(theta_rad)), s_disc_(square(std::sin(disc_radius_rad / 2))) {}
+      : theta_(theta_rad),
+        sine_(std::sin(theta_rad)),
+        s_disc_(square(std::sin(disc_radius_rad / 2))) {}
 
-  /// Mean of mu^k over the azimuths of the ring of radius θ', with mu^k = 0 where the ring is outside of the disc.
+  /// Mean of mu^k over the azimuths of the ring of radius θ', with 0 where it is outside of the disc.
   ///
-  /// A point of the ring is at δ from the centre with sin²(δ/2) = A + B sin²(φ/2), A = sin²((θ−θ')/2), B = sin θ sin θ';
-  /// mu² = 1 − sin²(δ/2)/s_disc = (B/s_disc) (m − sin²(φ/2)), m = (s_disc − A)/B.
+  /// A point of the ring is at δ from the disc's centre with sin²(δ/2) = A + B sin²(φ/2),
+  /// A = sin²((θ−θ')/2), B = sin θ sin θ'; mu² = 1 − sin²(δ/2)/s_disc = (room − B sin²(φ/2))/s_disc
+  /// with room = s_disc − A.
   std::array<double, powers> mean_powers(double ring_rad) const {
+    static const SeriesIntegrals series;
+    static const QuarterTurn quarter;
+    constexpr double largest_series_m = 0.01;  // the first term left out is below 3e-9
+
     std::array<double, powers> mean{};
     const double room = s_disc_ - square(std::sin((theta_ - ring_rad) / 2));
     if (room <= 0) return mean;
     const double b = sine_ * std::sin(ring_rad);
-    if (room >= b) {
-      for (int i = 0; i < points; ++i)
-        add_powers(mean, (room - b * square(std::sin((i + 0.5) * pi / (2 * points)))) / s_disc_, 1.0 / points);
+    if (room >= b) {  // the whole ring lies on the disc
+      for (int i = 0; i < quarter.points; ++i)
+        add_powers(mean, std::sqrt((room - b * quarter.sine_squared[i]) / s_disc_),
+                   1.0 / quarter.points);
       return mean;
     }
-    // With sin(φ/2) = √m u: dφ = 2√m du / √(1 − m u²), mu² = (room/s_disc) (1 − u²).
-    const double m = room / b, root = std::sqrt(m), mu_middle = std::sqrt(room / s_disc_);
-    double power = root / pi;
-    for (int k = 0; k < powers; ++k, power *= mu_middle) {
-      double sum = 0;
-      if (m < largest_series_m)
-        for (int p = series_terms - 1; p >= 0; --p) sum = sum * m + series_.value[k][p];
-      else
-        for (int i = 0; i < points; ++i) {  // u = sin χ
-          const double chi = (i + 0.5) * pi / (2 * points), cosine = std::cos(chi);
-          sum += std::pow(cosine, k + 1) / std::sqrt(1 - m * square(std::sin(chi))) * pi / points;
-        }
-      mean[k] = power * sum;
+    // With sin(φ/2) = √m u, m = room/B: dφ = 2√m du / √(1 − m u²), mu² = (room/s_disc) (1 − u²).
+    const double m = room / b, mu_middle = std::sqrt(room / s_disc_);
+    if (m < largest_series_m) {
+      double power = std::sqrt(m) / pi;
+      for (int k = 0; k < powers; ++k, power *= mu_middle) {
+        double sum = 0;
+        for (int p = series_terms - 1; p >= 0; --p) sum = sum * m + series.value[k][p];
+        mean[k] = power * sum;
+      }
+      return mean;
+    }
+    for (int i = 0; i < quarter.points; ++i) {  // u = sin χ
+      const double weight = std::sqrt(m) * quarter.cosine[i] /
+                            (quarter.points * std::sqrt(1 - m * quarter.sine_squared[i]));
+      add_powers(mean, mu_middle * quarter.cosine[i], weight);
     }
     return mean;
   }
 
  private:
-  static constexpr int points = 24;
-  static constexpr double largest_series_m = 0.01;  // the first term left out is below 3e-9
-
-  static void add_powers(std::array<double, powers>& sum, double mu_squared, double weight) {
-    const double mu = std::sqrt(std::fmax(0.0, mu_squared));
+  static void add_powers(std::array<double, powers>& sum, double mu, double weight) {
     for (int k = 0; k < powers; ++k, weight *= mu) sum[k] += weight;
   }
 
   double theta_, sine_, s_disc_;
-  SeriesIntegrals series_;
 };
 
 }  // namespace
@@ -91,7 +110,7 @@ DiscConvolution::DiscConvolution(const std::vector<double>& angle_deg, const Dis
 }
 
 DiscConvolution::Stencil DiscConvolution::stencil_at(int node) const {
-  static const Quadrature short_rule = gauss_legendre(6), long_rule = gauss_legendre(16);
+  static const Quadrature rules[] = {gauss_legendre(3), gauss_legendre(6), gauss_legendre(16)};
   const double theta = angle_rad_[node], radius = disc_.angular_radius_rad();
   const double from = std::fmax(0.0, theta - radius), to = std::fmin(pi, theta + radius);
   const DiscRings rings(theta, radius);
@@ -117,7 +136,8 @@ DiscConvolution::Stencil DiscConvolution::stencil_at(int node) const {
         pieces = 2;
       }
     for (int piece = 0; piece < pieces; ++piece) {
-      const Quadrature& rule = ends[piece + 1] - ends[piece] > radius / 4 ? long_rule : short_rule;
+      const double share_of_radius = (ends[piece + 1] - ends[piece]) / radius;
+      const Quadrature& rule = rules[share_of_radius > 0.25 ? 2 : share_of_radius > 0.05 ? 1 : 0];
       for (std::size_t q = 0; q < rule.nodes.size(); ++q) {
         // x = t² (3 − 2t) makes the square roots at the disc's edges smooth.
         const double t = 0.5 * (1 + rule.nodes[q]), length = ends[piece + 1] - ends[piece];

@@ -106,9 +106,16 @@ class RowSearch {
 };
 
 /// 1 well within the range, 0 well beyond.
-double fade(double x, double range) { return 1 / (1 + std::pow(x / range, 4)); }
+double fade(double x, double range) {
+  const double square = x / range * (x / range);
+  return 1 / (1 + square * square);
+}
 
-double step(double x) { return 1 / (1 + std::exp(-x)); }
+/// From 0 to 1 around 0.
+double step(double x) { return 0.5 * (1 + x / std::sqrt(1 + x * x)); }
+
+/// Reach of a bow's supernumeraries in Airy's units and at most in degrees; of the rings in x sin θ.
+constexpr double bow_range_units = 25, bow_range_deg = 20, ring_range = 25;
 
 }  // namespace
 
@@ -116,59 +123,63 @@ double FeatureTracks::Track::at_nm(double wavelength_nm) const {
   return horner(coefficients, (inverse_square(wavelength_nm) - centre) / half_range);
 }
 
-FeatureTracks::FeatureTracks(const std::vector<double>& angle_deg, const std::vector<double>& wavelength_nm,
-                             std::span<const float> rows, double size_um, bool rings_in_front) {
+FeatureTracks::FeatureTracks(const std::vector<double>& angle_deg,
+                             const std::vector<double>& wavelength_nm, std::span<const float> rows,
+                             double size_um, bool rings_in_front)
+    : rings_in_front_(rings_in_front) {
   assert(rows.size() == angle_deg.size() * wavelength_nm.size());
   if (wavelength_nm.size() < 3 || angle_deg.size() < 3) return;
-  const double middle_nm = 0.5 * (wavelength_nm.front() + wavelength_nm.back());
-  const double x = 2 * pi * size_um / um_from_nm(middle_nm);
-  // Airy's unit of angle, h^(1/3) x^(−2/3) with h = 4.87 for the first and 27.6 for the second bow of water.
-  const double unit = degrees(1.695 * std::pow(x, -2.0 / 3)), second_unit = 1.78 * unit;
-  const double tolerance_deg = 0.02 + 0.15 * unit;
+  angle_deg_ = angle_deg;
+  middle_nm_ = 0.5 * (wavelength_nm.front() + wavelength_nm.back());
+  const double x = 2 * pi * size_um / um_from_nm(middle_nm_);
+  // h^(1/3) x^(−2/3) with h = 4.87 for the first bow of water.
+  unit_deg_ = degrees(1.695 * std::pow(x, -2.0 / 3));
+  ring_range_deg_ = std::fmin(15.0, degrees(ring_range / x));
 
+  const double tolerance_deg = 0.02 + 0.15 * unit_deg_;
   std::vector<std::optional<double>> first, second;
   for (std::size_t j = 0; j < wavelength_nm.size(); ++j)
     first.push_back(RowSearch(angle_deg, rows.data() + j * angle_deg.size()).primary());
   primary_ = track_through(wavelength_nm, first, tolerance_deg);
-  if (primary_.found) {
-    for (std::size_t j = 0; j < wavelength_nm.size(); ++j)
-      second.push_back(RowSearch(angle_deg, rows.data() + j * angle_deg.size()).secondary(primary_.at_nm(wavelength_nm[j])));
-    secondary_ = track_through(wavelength_nm, second, 2 * tolerance_deg);
-  }
+  if (!primary_.found) return;
+  for (std::size_t j = 0; j < wavelength_nm.size(); ++j)
+    second.push_back(RowSearch(angle_deg, rows.data() + j * angle_deg.size())
+                         .secondary(primary_.at_nm(wavelength_nm[j])));
+  secondary_ = track_through(wavelength_nm, second, 2 * tolerance_deg);
+}
 
-  const double top = primary_.found ? primary_.at_nm(middle_nm) : 0;
-  const double second_top = secondary_.found ? secondary_.at_nm(middle_nm) : 0;
-  // The foot of the first bow reaches 4 units into the dark; with a second bow the two share the dark between them.
+void FeatureTracks::movers(double wavelength_nm, std::span<Mover> mover) const {
+  const double ratio = wavelength_nm / middle_nm_, unit = unit_deg_ * std::pow(ratio, 2.0 / 3);
+  const double second_unit = 1.78 * unit;  // ∛(27.6/4.87): h of the second bow over h of the first
+  const double rings = ring_range_deg_ * ratio;
+  const double range = std::fmin(bow_range_units * unit, bow_range_deg);
+  const double second_range = std::fmin(bow_range_units * second_unit, bow_range_deg);
+  const double top = primary_.found ? primary_.at_nm(wavelength_nm) : 0;
+  const double second_top = secondary_.found ? secondary_.at_nm(wavelength_nm) : 0;
+  // The foot of the first bow reaches 4 units into the dark; two bows share the dark between them.
   const double border = secondary_.found ? 0.5 * (top + second_top) : top - 4 * unit - 2;
   const double border_width = secondary_.found ? (top - second_top) / 16 : 0.5 * unit + 0.5;
-  const double ring_range = std::fmin(15.0, degrees(25 / x)), bow_range = 12;  // in degrees, in units
-  for (const double angle : angle_deg) {
+  for (std::size_t i = 0; i < angle_deg_.size(); ++i) {
+    const double angle = angle_deg_[i];
+    const double back = fade(180 - angle, rings), front = rings_in_front_ ? fade(angle, rings) : 0;
+    const double rest = (1 - back) * (1 - front), behind = step((angle - border) / border_width);
     Mover m{};
-    const double back = fade(180 - angle, ring_range), front = rings_in_front ? fade(angle, ring_range) : 0;
-    const double rest = (1 - back) * (1 - front);
-    const double behind = step((angle - border) / border_width);
-    if (primary_.found) {
-      m.primary = rest * behind * (angle > top ? fade(angle - top, bow_range * unit) : 1);
-      m.primary_opening = m.primary * (angle - top);
-    }
-    if (secondary_.found) {
-      m.secondary = rest * (1 - behind) * (angle < second_top ? fade(second_top - angle, bow_range * second_unit) : 1);
-      m.secondary_opening = m.secondary * (angle - second_top);
-    }
+    if (primary_.found)
+      m.primary = rest * behind * fade(std::fmax(0.0, angle - top), range);
+    if (secondary_.found)
+      m.secondary =
+          rest * (1 - behind) * fade(std::fmax(0.0, second_top - angle), second_range);
+    m.opening = m.primary * (angle - top) + m.secondary * (angle - second_top);
     m.ring = front * angle - back * (180 - angle);
-    mover_.push_back(m);
+    mover[i] = m;
   }
 }
 
-void FeatureTracks::displacements_deg(double from_nm, double to_nm, std::span<double> displacement_deg) const {
-  const double ratio = to_nm / from_nm, ring = ratio - 1, opening = std::pow(ratio, 2.0 / 3) - 1;
-  const double first = primary_.found ? primary_.at_nm(to_nm) - primary_.at_nm(from_nm) : 0;
-  const double second = secondary_.found ? secondary_.at_nm(to_nm) - secondary_.at_nm(from_nm) : 0;
-  for (std::size_t i = 0; i < mover_.size(); ++i) {
-    const Mover& m = mover_[i];
-    displacement_deg[i] = m.primary * first + m.secondary * second +
-                          (m.primary_opening + m.secondary_opening) * opening + m.ring * ring;
-  }
+FeatureTracks::Shift FeatureTracks::shift(double from_nm, double to_nm) const {
+  const double ratio = to_nm / from_nm;
+  return {primary_.found ? primary_.at_nm(to_nm) - primary_.at_nm(from_nm) : 0,
+          secondary_.found ? secondary_.at_nm(to_nm) - secondary_.at_nm(from_nm) : 0,
+          std::pow(ratio, 2.0 / 3) - 1, ratio - 1};
 }
 
 }  // namespace arcus::phase

@@ -21,29 +21,44 @@ class FeatureTracks {
   FeatureTracks(const std::vector<double>& angle_deg, const std::vector<double>& wavelength_nm,
                 std::span<const float> rows, double size_um, bool rings_in_front);
 
-  bool anything_moves() const { return !mover_.empty(); }
+  bool anything_moves() const { return !angle_deg_.empty(); }
 
-  /// How far what is found at every angle node at `from_nm` has gone at `to_nm` [deg]; smooth in both wavelengths.
-  void displacements_deg(double from_nm, double to_nm, std::span<double> displacement_deg) const;
+  /// What moves the surroundings of an angle: shares of both bows and of the rings.
+  struct Mover {
+    double primary, secondary;  ///< share of the bow's own shift
+    double opening;             ///< share × angle from the bow's maximum [deg]
+    double ring;                ///< share × angle from 0 or, negative, from 180° [deg]
+  };
+  /// What moves every angle node at a wavelength. Only where anything_moves().
+  void movers(double wavelength_nm, std::span<Mover> mover) const;
 
-  /// Angle of the maximum of the first bow (one internal reflection) or the second; NaN-free: found() says if it exists.
+  /// Where what moves does so from one wavelength to another, smoothly in both.
+  struct Shift {
+    double primary, secondary;  // of the bows [deg]
+    double opening, ring;       // relative
+    double of(const Mover& m) const {
+      return m.primary * primary + m.secondary * secondary + m.opening * opening + m.ring * ring;
+    }
+  };
+  Shift shift(double from_nm, double to_nm) const;
+
+  /// Angle of the maximum of a bow.
   struct Track {
     bool found = false;
     double centre = 0, half_range = 1;   // of t = 1e5 / wavelength²
     std::array<double, 4> coefficients{};  // of powers of (t − centre)/half_range [deg]
     double at_nm(double wavelength_nm) const;
   };
+  /// The bow of one internal reflection, and of two.
   const Track& primary() const { return primary_; }
   const Track& secondary() const { return secondary_; }
 
  private:
-  /// What moves the surroundings of an angle node: shares of both bows and of the rings.
-  struct Mover {
-    double primary, secondary;                  // share of the bow's own shift
-    double primary_opening, secondary_opening;  // share × angle from the bow's maximum [deg]
-    double ring;                                // share × angle from 0 (or, negative, from 180°) [deg]
-  };
-  std::vector<Mover> mover_;  // [angle]; empty where nothing moves
+  std::vector<double> angle_deg_;  // empty where nothing moves
+  double middle_nm_ = 0;
+  double unit_deg_ = 0;        // Airy's unit of angle in the first bow at middle_nm_
+  double ring_range_deg_ = 0;  // reach of the rings at middle_nm_
+  bool rings_in_front_ = false;
   Track primary_, secondary_;
 };
 

@@ -94,7 +94,9 @@ void WavelengthInterpolation::evaluate(double wavelength_nm, std::span<float> p1
     return;
   }
 
-  std::vector<double> sum(angles, 0.0), displacement(angles, 0.0);
+  std::vector<double> sum(angles, 0.0);
+  std::vector<FeatureTracks::Mover> movers(tracks_.anything_moves() ? angles : 0);
+  if (tracks_.anything_moves()) tracks_.movers(wavelength_nm, movers);
   for (int j = 0; j < stencil.count; ++j) {
     const int node = stencil.first + j;
     const float* logs = logs_.data() + static_cast<std::size_t>(node) * angles;
@@ -104,10 +106,10 @@ void WavelengthInterpolation::evaluate(double wavelength_nm, std::span<float> p1
       for (int i = 0; i < angles; ++i) sum[i] += weight * logs[i];
       continue;
     }
-    tracks_.displacements_deg(wavelength_nm, wavelength_nm_[node], displacement);
+    const FeatureTracks::Shift shift = tracks_.shift(wavelength_nm, wavelength_nm_[node]);
     int k = 0;  // interval of the displaced angle; both ascend together
     for (int i = 0; i < angles; ++i) {
-      const double angle = std::clamp(angle_deg_[i] + displacement[i], 0.0, 180.0);
+      const double angle = std::clamp(angle_deg_[i] + shift.of(movers[i]), 0.0, 180.0);
       while (k + 2 < angles && angle >= angle_deg_[k + 1]) ++k;
       while (k > 0 && angle < angle_deg_[k]) --k;
       // Cubic Hermite between the nodes of the interval.
