@@ -1,0 +1,115 @@
+#!/usr/bin/env bash
+# Every wrong input gets the contract's exit code and a message that names the place; nothing crashes, nothing
+# half-written stays. Usage: bad_input_test.sh ARCUS
+ARCUS=$1
+source "$(dirname "${BASH_SOURCE[0]}")/shell_kit.sh"
+
+must "$ARCUS" author box --optical-depth 1 -o box.vdb
+scene() {  # scene FILE TEXT...: a small scene with lines added
+  local file=$1
+  shift
+  { printf '[camera]\nresolution = [8, 8]\nposition_m = [0, -5, 0]\n[[medium]]\nname = "box"\nvdb = "box.vdb"\n'
+    printf '%s\n' "$@"; } >"$file"
+}
+
+# The command line.
+expect 2 'required' "$ARCUS"
+expect 2 'SCENE' "$ARCUS" render
+expect 2 'not expected|were not' "$ARCUS" render a.toml --no-such-option
+expect 0 'Usage' "$ARCUS" --help
+expect 0 'Usage' "$ARCUS" render --help
+expect 0 '^arcus [0-9]+\.[0-9]+' "$ARCUS" --version
+expect 2 'none.toml' "$ARCUS" render none.toml
+
+# Scenes: a misspelt key, wrong values, wrong types, wrong syntax.
+printf '[sun]\nelevaton_deg = 3\n' >a.toml
+expect 2 "a.toml:2:1: sun.elevaton_deg.*Did you mean 'elevation_deg'" "$ARCUS" render a.toml
+printf '[sun]\nelevation_deg = 95\n' >a.toml
+expect 2 'a.toml:2:17: sun.elevation_deg: 95.*between -90 and 90' "$ARCUS" render a.toml
+printf '[camera]\nresolution = [0, 0]\n' >a.toml
+expect 2 'a.toml:2.*camera.resolution' "$ARCUS" render a.toml
+printf '[camera]\nresolution = [100000, 10000]\n' >a.toml
+expect 2 'a.toml:2.*camera.resolution.*pixels' "$ARCUS" render a.toml
+printf '[camera]\nresolution = "big"\n' >a.toml
+expect 2 'a.toml:2.*camera.resolution' "$ARCUS" render a.toml
+printf '[render\n' >a.toml
+expect 2 'a.toml:1' "$ARCUS" render a.toml
+printf '[[medium]]\nname = "x"\n' >a.toml
+expect 2 'medium\[0\]\.vdb' "$ARCUS" render a.toml
+printf '[[medium]]\nvdb = "none.vdb"\n' >a.toml
+expect 2 'none.vdb' "$ARCUS" render a.toml
+scene a.toml
+expect 2 'sky.radiance|sky.radianc' "$ARCUS" render a.toml --set sky.radianc=1
+expect 2 'nan|finite|at least' "$ARCUS" render a.toml --set sun.irradiance_scale=nan
+expect 2 'crop' "$ARCUS" render a.toml --crop 0,0,9,9
+expect 2 'crop' "$ARCUS" render a.toml --crop 3,3,3,4
+expect 2 'exr' "$ARCUS" render a.toml -o a.jpg
+scene a.toml 'grid = "clouds"'
+expect 2 "clouds" "$ARCUS" render a.toml
+scene a.toml 'interpolation = "cubic"'
+expect 2 'interpolation.*linear or nearest' "$ARCUS" render a.toml
+
+# Recipes.
+printf 'type = "mie"\nsize_um = -3\n' >r.toml
+expect 2 'r.toml:2.*size_um: -3.*above 0' "$ARCUS" phase compute r.toml
+printf 'type = "mei"\n' >r.toml
+expect 2 "r.toml:1.*Did you mean 'mie'" "$ARCUS" phase compute r.toml
+printf 'type = "hg"\ng = 1.5\n' >r.toml
+expect 2 'r.toml:2.*g: 1.5' "$ARCUS" phase compute r.toml
+expect 2 'none.toml' "$ARCUS" phase eval none.toml
+expect 2 'size' "$ARCUS" phase sphere --x -1
+expect 2 'angles' "$ARCUS" phase sphere --x 1 --angles-deg 0:x:3
+expect 2 'angles' "$ARCUS" phase sphere --x 1 --angles-deg 0,200
+
+# VDB files: no VDB at all, cut short anywhere.
+printf 'not a grid' >b.vdb
+scene a.toml
+expect 2 'b.vdb' "$ARCUS" render a.toml --set medium.0.vdb=b.vdb
+size=$(stat -c %s box.vdb)
+for part in 1 2 3 5 8 9; do
+  head -c $((size * part / 10)) box.vdb >cut.vdb
+  expect 2 'cut.vdb' "$ARCUS" render a.toml --set medium.0.vdb=cut.vdb
+  expect 2 'cut.vdb' "$ARCUS" info cut.vdb
+done
+absent a.exr a.png
+
+# NaN in an array that becomes a grid.
+printf '0,0,0,1\n1,0,0,nan\n' >points.csv
+expect 2 'points.csv:2|nan' "$ARCUS" author field --file points.csv -o nan.vdb
+absent nan.vdb
+
+# Outputs that cannot be written: exit 1, before any work.
+scene a.toml
+expect 1 'cannot write' "$ARCUS" render a.toml -o no_such_folder/a.exr
+expect 1 'cannot write' "$ARCUS" author box -o no_such_folder/a.vdb
+mkdir folder.exr
+expect 1 'folder' "$ARCUS" render a.toml -o folder.exr
+rmdir folder.exr
+if [ -w /dev/full ] && [ "$(id -u)" -ne 0 ]; then
+  mkdir locked && chmod 555 locked
+  expect 1 'cannot write' "$ARCUS" render a.toml -o locked/a.exr
+fi
+
+# Pictures: missing, no picture, cut short.
+expect 2 'none.exr' "$ARCUS" profile none.exr
+must "$ARCUS" render a.toml -o good.exr --spp 1 --quiet
+head -c 300 good.exr >cut.exr
+expect 2 'cut.exr' "$ARCUS" profile cut.exr
+expect 2 'cut.exr' "$ARCUS" compare good.exr cut.exr
+expect 2 'around' "$ARCUS" profile good.exr --around moon
+
+# A damaged table in the cache is computed again, with a warning.
+printf 'type = "mie"\nsize_um = 2\nradii = 200\nwavelength_nm = { min = 500, max = 600, nodes = 2 }\n' >small.toml
+must "$ARCUS" phase compute small.toml
+table=$(find cache -name '*.nc')
+[ -n "$table" ] || complain "no table in the cache"
+cp "$table" whole.nc
+for offset in 100 5000 $(($(stat -c %s "$table") / 2)); do
+  printf 'XXXXXXXXXXXXXXXX' | dd of="$table" bs=1 seek="$offset" conv=notrunc status=none
+  expect 0 'damaged|computed again|made again' "$ARCUS" phase compute small.toml -o again.nc
+  cp whole.nc "$table"
+done
+head -c 1000 whole.nc >"$table"
+expect 0 'damaged|computed again|made again' "$ARCUS" phase compute small.toml -o again.nc
+
+finish

@@ -1,0 +1,78 @@
+// arcus author: media as VDB files.
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "media/author/box.h"
+#include "media/author/rain.h"
+#include "phase/base/whole_file.h"
+#include "tools/command.h"
+#include "tools/key_options.h"
+
+namespace arcus::tools {
+namespace {
+
+/// What all kinds share: the output, a settings file, and the keys as options.
+struct AuthorCommand {
+  std::string output, settings_file;
+  bool quiet = false;
+  std::unique_ptr<KeyOptions> options;
+
+  template <class S>
+  S settings() const {
+    S result;
+    const auto list = [&](Keys& keys) { list_keys(keys, result); };
+    if (settings_file.empty()) options->read(list);
+    else read_toml_file(settings_file, options->assignments(), list);
+    return result;
+  }
+};
+
+template <class S>
+void add_kind(CLI::App& author, const char* name, const char* meaning,
+              std::function<void(const AuthorCommand&, const S&)> make) {
+  auto command = std::make_shared<AuthorCommand>();
+  CLI::App* app = author.add_subcommand(name, meaning);
+  app->add_option("-o,--output", command->output, "OUT.vdb")->required();
+  app->add_option("--settings", command->settings_file, "TOML file with the keys below; options override it");
+  app->add_flag("--quiet", command->quiet, "say nothing but errors");
+  command->options = std::make_unique<KeyOptions>(*app, [](Keys& keys) {
+    S defaults;
+    list_keys(keys, defaults);
+  });
+  app->callback([command, make] {
+    check_writable(command->output);
+    make(*command, command->settings<S>());
+  });
+}
+
+void author_rain(const AuthorCommand& command, const media::RainSettings& settings) {
+  media::AuthoredRain rain = media::author_rain(settings);
+  const std::size_t bricks = rain.species.extinction.size();
+  media::save_grids(command.output, media::grids_of(std::move(rain.species)));
+  if (command.quiet) return;
+  std::fprintf(stderr,
+               "%s: %.3g t of water, extinction up to %.3g /m (diffraction included), effective radius %.3g to %.3g um, "
+               "%zu bricks of 8^3 voxels\n",
+               command.output.c_str(), 1e-3 * rain.water_kg, rain.largest_extinction_per_m, rain.smallest_radius_um,
+               rain.largest_radius_um, bricks);
+}
+
+void author_box(const AuthorCommand& command, const media::BoxSettings& settings) {
+  const std::string folder = std::filesystem::path(command.settings_file).parent_path().string();
+  media::save_grids(command.output, media::grids_of(media::author_box(settings, folder)));
+}
+
+}  // namespace
+
+void add_author(CLI::App& program) {
+  CLI::App* author = program.add_subcommand("author", "Make a medium as a VDB file");
+  author->require_subcommand(1);
+  add_kind<media::RainSettings>(*author, "rain", "A shower: a shaft of rain under a cloud base", author_rain);
+  add_kind<media::BoxSettings>(*author, "box", "A homogeneous block", author_box);
+}
+
+}  // namespace arcus::tools
