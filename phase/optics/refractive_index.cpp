@@ -43,7 +43,8 @@ RefractiveIndex RefractiveIndex::ice() {
   index.wavelength_nm_ = table.named("wavelength_nm");
   index.n_ = table.named("n");
   index.k_ = table.named("k");
-  for (std::size_t i = 0; i < index.n_.size(); ++i) index.n_[i] /= air_index(index.wavelength_nm_[i]);
+  for (std::size_t i = 0; i < index.n_.size(); ++i)
+    index.n_[i] /= air_index(index.wavelength_nm_[i]);
   return index;
 }
 
@@ -58,7 +59,8 @@ RefractiveIndex RefractiveIndex::constant(const ConstantIndexSettings& settings)
 
 RefractiveIndex RefractiveIndex::from_columns(const Columns& table, const std::string& where) {
   if (table.columns.size() != 3)
-    throw bad_input(where, std::to_string(table.columns.size()) + " columns", "must be three: wavelength in nm, n, k");
+    throw bad_input(where, std::to_string(table.columns.size()) + " columns",
+                    "must be three: wavelength in nm, n, k");
   RefractiveIndex index;
   index.name_ = where;
   index.wavelength_nm_ = table.columns[0];
@@ -69,11 +71,14 @@ RefractiveIndex RefractiveIndex::from_columns(const Columns& table, const std::s
     if (index.wavelength_nm_[i] <= (i == 0 ? 0 : index.wavelength_nm_[i - 1]))
       throw bad_input(row, "wavelength " + number_text(index.wavelength_nm_[i]) + " nm",
                       "must be above 0 and above the row before");
-    if (index.n_[i] <= 0) throw bad_input(row, "n = " + number_text(index.n_[i]), "must be above 0");
+    if (index.n_[i] <= 0)
+      throw bad_input(row, "n = " + number_text(index.n_[i]), "must be above 0");
     if (index.k_[i] < 0)
-      throw bad_input(row, "k = " + number_text(index.k_[i]), "must be at least 0", "k above 0 absorbs");
+      throw bad_input(row, "k = " + number_text(index.k_[i]), "must be at least 0",
+                      "k above 0 absorbs");
   }
-  if (index.n_.size() < 2) throw bad_input(where, "one row", "must be at least two", "Use { n = ..., k = ... }");
+  if (index.n_.size() < 2)
+    throw bad_input(where, "one row", "must be at least two", "Use { n = ..., k = ... }");
   return index;
 }
 
@@ -91,25 +96,29 @@ RefractiveIndex RefractiveIndex::named(const std::string& material) {
   return from_file(material);
 }
 
-double RefractiveIndex::first_nm() const { return wavelength_nm_.size() == 1 ? 0 : wavelength_nm_.front(); }
+double RefractiveIndex::first_nm() const {
+  return wavelength_nm_.size() == 1 ? 0 : wavelength_nm_.front();
+}
 
 double RefractiveIndex::last_nm() const {
-  return wavelength_nm_.size() == 1 ? std::numeric_limits<double>::infinity() : wavelength_nm_.back();
+  return wavelength_nm_.size() == 1 ? std::numeric_limits<double>::infinity()
+                                    : wavelength_nm_.back();
 }
 
 std::complex<double> RefractiveIndex::relative_to_air(double nm) const {
   if (wavelength_nm_.size() == 1) return {n_[0], k_[0]};
   if (!(nm >= first_nm() && nm <= last_nm()))
-    throw bad_input("refractive index of " + name_, "wavelength " + number_text(nm) + " nm",
-                    "must be between " + number_text(first_nm()) + " and " + number_text(last_nm()) + " nm",
-                    "Optical constants are not extrapolated");
+    throw bad_input(
+        "refractive index of " + name_, "wavelength " + number_text(nm) + " nm",
+        "must be between " + number_text(first_nm()) + " and " + number_text(last_nm()) + " nm",
+        "Optical constants are not extrapolated");
   const auto above = std::upper_bound(wavelength_nm_.begin() + 1, wavelength_nm_.end() - 1, nm);
   const auto i = static_cast<std::size_t>(above - wavelength_nm_.begin());
   const double t = (nm - wavelength_nm_[i - 1]) / (wavelength_nm_[i] - wavelength_nm_[i - 1]);
   const double n = (1 - t) * n_[i - 1] + t * n_[i];
   const bool positive = k_[i - 1] > 0 && k_[i] > 0;
-  const double k = positive ? k_[i - 1] * std::pow(k_[i] / k_[i - 1], t)
-                            : (1 - t) * k_[i - 1] + t * k_[i];
+  const double k =
+      positive ? k_[i - 1] * std::pow(k_[i] / k_[i - 1], t) : (1 - t) * k_[i - 1] + t * k_[i];
   return {n, k};
 }
 

@@ -7,7 +7,8 @@
 namespace arcus::phase {
 namespace {
 
-/// Maclaurin series, DLMF 9.4.1 and 9.4.3. Cancellation costs the digits e^(2 z^1.5 / 3), on both sides of 0.
+/// Maclaurin series, DLMF 9.4.1 and 9.4.3. Cancellation costs the digits e^(2 z^1.5 / 3), on both
+/// sides of 0.
 AiryValues by_series(double z) {
   constexpr double ai_0 = 0.35502805388781723926, ai_slope_0 = -0.25881940379280679841;
   const double cube = z * z * z;
@@ -76,9 +77,12 @@ AiryValues oscillating(double z) {
     v_odd += sign * c.v[k + 1] * power;
     power /= xi;
   }
-  const double cosine = std::cos(xi - pi / 4), sine = std::sin(xi - pi / 4), front = 1 / std::sqrt(pi);
-  return {front / root4 * (cosine * u_even + sine * u_odd), front * root4 * (sine * v_even - cosine * v_odd),
-          front / root4 * (-sine * u_even + cosine * u_odd), front * root4 * (cosine * v_even + sine * v_odd)};
+  const double cosine = std::cos(xi - pi / 4), sine = std::sin(xi - pi / 4),
+               front = 1 / std::sqrt(pi);
+  return {front / root4 * (cosine * u_even + sine * u_odd),
+          front * root4 * (sine * v_even - cosine * v_odd),
+          front / root4 * (-sine * u_even + cosine * u_odd),
+          front * root4 * (cosine * v_even + sine * v_odd)};
 }
 
 }  // namespace

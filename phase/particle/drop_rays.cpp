@@ -14,7 +14,9 @@ RaysOfOrder::RaysOfOrder(int order, double n) : order_(order), n_(n) {
   if (order >= 2 && n < order) bow_ = std::acos(std::sqrt((n * n - 1) / (order * order - 1.0)));
 }
 
-double RaysOfOrder::refraction_rad(double incidence_rad) const { return std::asin(std::sin(incidence_rad) / n_); }
+double RaysOfOrder::refraction_rad(double incidence_rad) const {
+  return std::asin(std::sin(incidence_rad) / n_);
+}
 
 double RaysOfOrder::turned_rad(double incidence_rad) const {
   return (order_ - 1) * pi + 2 * incidence_rad - 2 * order_ * refraction_rad(incidence_rad);
@@ -26,17 +28,22 @@ double RaysOfOrder::turned_slope(double incidence_rad) const {
 
 double RaysOfOrder::turned_curvature(double incidence_rad) const {
   // With refraction beta(tau): beta' = cos tau / (n cos beta).
-  const double beta = refraction_rad(incidence_rad), sine = std::sin(incidence_rad), cosine = std::cos(beta);
+  const double beta = refraction_rad(incidence_rad), sine = std::sin(incidence_rad),
+               cosine = std::cos(beta);
   const double slope = std::cos(incidence_rad) / (n_ * cosine);
-  return -2 * order_ * (-sine / (n_ * cosine) + std::cos(incidence_rad) * std::sin(beta) * slope / (n_ * cosine * cosine));
+  return -2 * order_ *
+         (-sine / (n_ * cosine) +
+          std::cos(incidence_rad) * std::sin(beta) * slope / (n_ * cosine * cosine));
 }
 
 std::optional<double> RaysOfOrder::incidence_of(double turned, double low, double high) const {
   const double at_low = turned_rad(low), at_high = turned_rad(high);
   const double sign = at_high > at_low ? 1 : -1;
   if ((turned - at_low) * sign < 0 || (turned - at_high) * sign > 0) return std::nullopt;
-  // Newton's method inside a shrinking bracket: it also converges at a bow, where the slope vanishes.
-  double incidence = low + (high - low) * (at_high == at_low ? 0.5 : (turned - at_low) / (at_high - at_low));
+  // Newton's method inside a shrinking bracket: it also converges at a bow, where the slope
+  // vanishes.
+  double incidence =
+      low + (high - low) * (at_high == at_low ? 0.5 : (turned - at_low) / (at_high - at_low));
   for (int i = 0; i < 100; ++i) {
     const double miss = (turned_rad(incidence) - turned) * sign;
     (miss < 0 ? low : high) = incidence;
@@ -59,10 +66,12 @@ RaysOfOrder::Amplitudes RaysOfOrder::amplitudes(double incidence_rad) const {
 
 namespace {
 
-/// Cuts one monotonic branch of an order at the edges of the cells and adds the power of each piece to its cell.
+/// Cuts one monotonic branch of an order at the edges of the cells and adds the power of each piece
+/// to its cell.
 class BranchBinner {
  public:
-  BranchBinner(const RaysOfOrder& rays, double dimming_per_crossing, std::span<const double> edges, GeometricSphere& sphere)
+  BranchBinner(const RaysOfOrder& rays, double dimming_per_crossing, std::span<const double> edges,
+               GeometricSphere& sphere)
       : rays_(rays), dimming_(dimming_per_crossing), edges_(edges), sphere_(sphere) {}
 
   void add(double low, double high) {
@@ -71,7 +80,8 @@ class BranchBinner {
     const double last = std::max(rays_.turned_rad(low), rays_.turned_rad(high));
     for (const double edge : edges_)
       for (const double side : {edge, -edge})
-        for (double turned = side + 2 * pi * std::ceil((first - side) / (2 * pi)); turned < last; turned += 2 * pi)
+        for (double turned = side + 2 * pi * std::ceil((first - side) / (2 * pi)); turned < last;
+             turned += 2 * pi)
           if (const auto cut = rays_.incidence_of(turned, low, high)) cuts.push_back(*cut);
     // Where the angle folds back at 0 and pi the cell changes too; the edges need not contain them.
     for (double turned = pi * std::ceil(first / pi); turned < last; turned += pi)
@@ -95,7 +105,8 @@ class BranchBinner {
         const double width = (high - low) / parts;
         const double incidence = low + width * (part + 0.5 + 0.5 * rule.nodes[q]);
         const auto a = rays_.amplitudes(incidence);
-        const double left = std::exp(-2 * rays_.order() * dimming_ * std::cos(rays_.refraction_rad(incidence)));
+        const double left =
+            std::exp(-2 * rays_.order() * dimming_ * std::cos(rays_.refraction_rad(incidence)));
         const double power = std::sin(2 * incidence) * 0.5 * width * rule.weights[q] * left;
         const double s1 = a.perpendicular * a.perpendicular, s2 = a.parallel * a.parallel;
         const double total = 0.5 * power * (s1 + s2);
@@ -136,8 +147,9 @@ GeometricSphere geometric_sphere(double size_parameter, std::complex<double> rel
   double scattered = 0;
   for (const double share : sphere.order_share) scattered += share;
   for (std::size_t i = 0; i < cells; ++i) {
-    const double solid_angle =
-        4 * pi * std::sin(0.5 * (cell_edges_rad[i + 1] - cell_edges_rad[i])) * std::sin(0.5 * (cell_edges_rad[i + 1] + cell_edges_rad[i]));
+    const double solid_angle = 4 * pi *
+                               std::sin(0.5 * (cell_edges_rad[i + 1] - cell_edges_rad[i])) *
+                               std::sin(0.5 * (cell_edges_rad[i + 1] + cell_edges_rad[i]));
     sphere.s11[i] /= solid_angle;
     sphere.s12[i] /= solid_angle;
     sphere.s33[i] /= solid_angle;

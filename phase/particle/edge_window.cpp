@@ -8,16 +8,23 @@
 namespace arcus::phase {
 namespace {
 
-constexpr double reach = 3;         // widths from the centre to where the window is 0 or 1 within 1e-5
+constexpr double reach = 3;  // widths from the centre to where the window is 0 or 1 within 1e-5
 constexpr double fresnel_zones = 3.5;  // least width of the window in Fresnel zones of a ray
-constexpr double bow_reach = 6;     // Airy's variable beyond which the two rays of a bow stand apart
+constexpr double bow_reach = 6;  // Airy's variable beyond which the two rays of a bow stand apart
 
-/// Half width in the angle of incidence of a ray's Fresnel zone: the phase x (..) has the second derivative x cos(tau) D'(tau).
+/// Half width in the angle of incidence of a ray's Fresnel zone: the phase x (..) has the second
+/// derivative x cos(tau) D'(tau).
 double fresnel_zone_rad(const RaysOfOrder& rays, double incidence_rad, double x) {
   return 1 / std::sqrt(x * std::cos(incidence_rad) * std::fabs(rays.turned_slope(incidence_rad)));
 }
 
 }  // namespace
+
+double EdgeWindow::value_at(double incidence_rad) const {
+  const double u = (incidence_rad - centre_rad) / width_rad;
+  if (everything || u > reach + 1) return 1;
+  return u < -reach - 1 ? 0 : 0.5 * std::erfc(-u);
+}
 
 EdgeWindow::Share EdgeWindow::at(double incidence_rad) const {
   if (everything) return {1, 0, 0};
@@ -28,20 +35,21 @@ EdgeWindow::Share EdgeWindow::at(double incidence_rad) const {
   return {0.5 * std::erfc(-u), slope, -2 * u / width_rad * slope};
 }
 
-double EdgeWindow::begin_rad() const { return everything ? 0 : std::max(0.0, centre_rad - reach * width_rad); }
-
-double EdgeWindow::whole_from() const {
-  const double end = centre_rad + reach * width_rad;
-  return everything ? 0 : end < 0.5 * pi ? std::sin(end) : 1;
+double EdgeWindow::begin_rad() const {
+  return everything ? 0 : std::max(0.0, centre_rad - reach * width_rad);
 }
 
-EdgeWindow edge_window(const RaysOfOrder& rays, double n, double x) {
+namespace {
+
+EdgeWindow placed_window(const RaysOfOrder& rays, double n, double x) {
   EdgeWindow window;
-  // Debye's expansions hold within 1 % of phase up to x cos^3 = 20, and the window should be 1 where they don't.
+  // Debye's expansions hold within 1 % of phase up to x cos^3 = 20, and the window should be 1
+  // where they don't.
   const double last = std::acos(std::min(1.0, std::cbrt(20 / x)));
   double bow_outer = 0.2, bow_inner = 0.5 * pi;
   if (const auto bow = rays.bow_incidence_rad()) {
-    // van de Hulst's h (1957, section 13.23): the curvature of the turn against the distance from the axis.
+    // van de Hulst's h (1957, section 13.23): the curvature of the turn against the distance from
+    // the axis.
     const double p2 = rays.order() * rays.order();
     const double h = (p2 - 1) * (p2 - 1) / p2 * std::sqrt((p2 - n * n) / std::pow(n * n - 1, 3));
     const double b = std::sin(*bow), away = std::sqrt(bow_reach) / std::cbrt(h * x);
@@ -68,6 +76,15 @@ EdgeWindow edge_window(const RaysOfOrder& rays, double n, double x) {
   }
   window.width_rad = std::min(window.width_rad, fresnel_zones * fresnel_zone_rad(rays, middle, x));
   window.centre_rad = bow_inner - reach * window.width_rad;
+  return window;
+}
+
+}  // namespace
+
+EdgeWindow edge_window(const RaysOfOrder& rays, double n, double x) {
+  EdgeWindow window = placed_window(rays, n, x);
+  const double end = window.centre_rad + reach * window.width_rad;
+  window.whole_from_sine = window.everything ? 0 : end < 0.5 * pi ? std::sin(end) : 1;
   return window;
 }
 

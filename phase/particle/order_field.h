@@ -1,5 +1,6 @@
 #pragma once
-// The field of one of Debye's orders in one direction: a few waves whose phases grow differently with the size of the sphere.
+// The field of one of Debye's orders in one direction: a few waves whose phases grow differently
+// with the size of the sphere.
 
 #include <complex>
 
@@ -9,19 +10,25 @@ namespace arcus::phase {
 struct AmplitudeProducts {
   double i1 = 0, i2 = 0;
   std::complex<double> i3 = 0;
+  void add(const AmplitudeProducts& other, double factor) {
+    i1 += factor * other.i1;
+    i2 += factor * other.i2;
+    i3 += factor * other.i3;
+  }
 };
 
 class OrderField {
  public:
   struct Wave {
     std::complex<double> s1, s2;
-    double turn = 0;      ///< phase as it grows with the size: x times the wave's optical path in radii
+    double turn = 0;  ///< phase as it grows with the size: x times the wave's optical path in radii
     bool known = false;   ///< the turn is set
     bool used = false;    ///< it has light
     bool phased = false;  ///< exp(i turn) is already part of s1 and s2
   };
 
-  /// The four that every order may have: side +1 or -1 of the axis, branch 0 (inside of the bow) or 1.
+  /// The four that every order may have: side +1 or -1 of the axis, branch 0 (inside of the bow)
+  /// or 1.
   Wave& slot(int side, int branch) { return waves_[(side > 0 ? 0 : 2) + branch]; }
   /// One of those that a few directions have beyond.
   Wave& extra() { return waves_[extras_ < most ? extras_++ : most - 1]; }
@@ -30,8 +37,9 @@ class OrderField {
   void clear();
   /// Gives every wave its phase, so that others can be added to it.
   void apply_phases();
-  /// Adds the products of the field. Fringes are averaged over sizes with the standard deviation of a hat function whose half width is
-  /// relative_step: each pair of waves keeps fringe_left of its difference of turns.
+  /// Adds the products of the field. Fringes are averaged over sizes with the standard deviation of
+  /// a hat function whose half width is relative_step: each pair of waves keeps fringe_left of its
+  /// difference of turns.
   void add_to(AmplitudeProducts& sums, double relative_step);
 
  private:

@@ -10,8 +10,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Outgoing Riccati-Hankel function zeta_l(z) = sqrt(pi z / 2) H_(l + 1/2)(z) for l + 1/2 < z by Debye's expansion,
-/// DLMF 10.19.6 with U_k of 10.41.10.
+/// Outgoing Riccati-Hankel function zeta_l(z) = sqrt(pi z / 2) H_(l + 1/2)(z) for l + 1/2 < z by
+/// Debye's expansion, DLMF 10.19.6 with U_k of 10.41.10.
 Complex riccati_hankel(double l, double z) {
   const double order = l + 0.5;
   const double root = std::sqrt((z - order) * (z + order));  // order tan(beta)
@@ -49,11 +49,13 @@ Outgoing outgoing(double z, int first, int last) {
 Complex inverse(Complex z) { return std::conj(z) / std::norm(z); }
 
 /// impedance: n for perpendicular (TE), 1/n for parallel (TM) waves.
-SurfaceTerms terms_of(Complex zeta_x, Complex slope_x, Complex zeta_y, Complex slope_y, double impedance) {
+SurfaceTerms terms_of(Complex zeta_x, Complex slope_x, Complex zeta_y, Complex slope_y,
+                      double impedance) {
   // The incoming functions are the conjugates of the outgoing ones, real arguments provided.
   const Complex in_x = std::conj(slope_x), in_y = std::conj(slope_y);
   const double size_x = std::norm(zeta_x), size_y = std::norm(zeta_y);
-  const Complex turn_x = std::conj(zeta_x) * std::conj(zeta_x) / size_x, turn_y = zeta_y * zeta_y / size_y;
+  const Complex turn_x = std::conj(zeta_x) * std::conj(zeta_x) / size_x,
+                turn_y = zeta_y * zeta_y / size_y;
   const Complex through = inverse(slope_x - impedance * in_y);
   SurfaceTerms terms;
   terms.reflected_outside = -turn_x * (in_x - impedance * in_y) * through;
@@ -79,7 +81,8 @@ PartialWaves partial_waves(double x, std::complex<double> m, int first, int last
     SurfaceTerms p = terms_of(at_x.value[i], at_x.slope[i], at_y.value[i], at_y.slope[i], 1 / n);
     if (m.imag() > 0) {
       const double sine = (first + static_cast<double>(i) + 0.5) / y;
-      const double dimming = std::exp(-2 * m.imag() * x * std::sqrt(std::fmax(0.0, 1 - sine * sine)));
+      const double dimming =
+          std::exp(-2 * m.imag() * x * std::sqrt(std::fmax(0.0, 1 - sine * sine)));
       for (SurfaceTerms* t : {&s, &p}) {
         t->passed_through *= dimming;
         t->reflected_inside *= dimming;

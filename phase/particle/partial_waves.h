@@ -1,7 +1,8 @@
 #pragma once
-// What the surface of a sphere does to one partial wave: how much is reflected outside, enters, is reflected inside
-// and leaves (Debye's expansion of the Mie coefficients; H. M. Nussenzveig, J. Math. Phys. 10, 82, 1969). Exact apart from weak
-// absorption, so that edges, where geometric rays fail, come out right.
+// What the surface of a sphere does to one partial wave: how much is reflected outside, enters, is
+// reflected inside and leaves (Debye's expansion of the Mie coefficients; H. M. Nussenzveig, J.
+// Math. Phys. 10, 82, 1969). Exact apart from weak absorption, so that edges, where geometric rays
+// fail, come out right.
 
 #include <complex>
 #include <vector>
@@ -22,10 +23,11 @@ struct PartialWaves {
   std::vector<SurfaceTerms> perpendicular, parallel;  ///< magnetic (b_l) and electric (a_l) waves
 };
 
-/// size_parameter x at least 50; relative_index n + ik, n between 1.05 and 3 and k x small enough that absorption only
-/// dims (k below 0.01): it enters as exp(-2 k x cos(refraction)) a crossing. 1 <= first <= last <= x + 8 x^(1/3).
-/// Without absorption the error is below 1e-8 of the largest term at x = 500 and falls with x; absorption adds about k.
-/// Cost: about 0.3 us a partial wave.
-PartialWaves partial_waves(double size_parameter, std::complex<double> relative_index, int first, int last);
+/// size_parameter x at least 50; relative_index n + ik, n between 1.05 and 3 and k x small enough
+/// that absorption only dims (k below 0.01): it enters as exp(-2 k x cos(refraction)) a crossing. 1
+/// <= first <= last <= x + 8 x^(1/3). Without absorption the error is below 1e-8 of the largest
+/// term at x = 500 and falls with x; absorption adds about k. Cost: about 0.3 us a partial wave.
+PartialWaves partial_waves(double size_parameter, std::complex<double> relative_index, int first,
+                           int last);
 
 }  // namespace arcus::phase

@@ -13,7 +13,8 @@
 namespace arcus::phase {
 namespace {
 
-/// Regularised incomplete gamma function P(a, x): DLMF 8.7.1 (series) and 8.9.2 (continued fraction).
+/// Regularised incomplete gamma function P(a, x): DLMF 8.7.1 (series) and 8.9.2 (continued
+/// fraction).
 double incomplete_gamma(double a, double x) {
   if (x <= 0) return 0;
   const double front = std::exp(a * std::log(x) - x - std::lgamma(a));
@@ -51,8 +52,8 @@ double density(const LognormalSizes& l, double r) {
 
 double mean_power(const OneSize& one, double order) { return std::pow(one.radius_um, order); }
 double mean_power(const GammaSizes& g, double order) {
-  return std::exp(std::lgamma((g.alpha + 1 + order) / g.gamma) - std::lgamma((g.alpha + 1) / g.gamma) -
-                  order / g.gamma * std::log(g.b));
+  return std::exp(std::lgamma((g.alpha + 1 + order) / g.gamma) -
+                  std::lgamma((g.alpha + 1) / g.gamma) - order / g.gamma * std::log(g.b));
 }
 double mean_power(const LognormalSizes& l, double order) {
   return std::exp(order * std::log(l.median_um) + 0.5 * order * order * l.s * l.s);
@@ -73,21 +74,26 @@ double slope_for(double alpha, double gamma, double effective_radius_um) {
                            std::log(effective_radius_um)));
 }
 
-std::variant<OneSize, GammaSizes, LognormalSizes> kind_of(const SizesSettings& s, double effective_radius_um) {
+std::variant<OneSize, GammaSizes, LognormalSizes> kind_of(const SizesSettings& s,
+                                                          double effective_radius_um) {
   if (!(effective_radius_um > 0) || !std::isfinite(effective_radius_um))
     throw bad_input("size_um", number_text(effective_radius_um), "must be above 0");
   if (s.type == "monodisperse") return OneSize{effective_radius_um};
   if (s.type == "marshall_palmer") return GammaSizes{0, slope_for(0, 1, effective_radius_um), 1};
   if (s.type == "modified_gamma") {
-    if (!(s.alpha > -1)) throw bad_input("distribution.alpha", number_text(s.alpha), "must be above -1");
-    if (!(s.gamma > 0)) throw bad_input("distribution.gamma", number_text(s.gamma), "must be above 0");
+    if (!(s.alpha > -1))
+      throw bad_input("distribution.alpha", number_text(s.alpha), "must be above -1");
+    if (!(s.gamma > 0))
+      throw bad_input("distribution.gamma", number_text(s.gamma), "must be above 0");
     return GammaSizes{s.alpha, slope_for(s.alpha, s.gamma, effective_radius_um), s.gamma};
   }
-  if (!(s.variance > 0)) throw bad_input("distribution.variance", number_text(s.variance), "must be above 0");
+  if (!(s.variance > 0))
+    throw bad_input("distribution.variance", number_text(s.variance), "must be above 0");
   if (s.type == "gamma") {
     if (!(s.variance < 0.5))
-      throw bad_input("distribution.variance", number_text(s.variance), "must be below 0.5",
-                      "A gamma distribution of a larger effective variance holds infinitely many drops");
+      throw bad_input(
+          "distribution.variance", number_text(s.variance), "must be below 0.5",
+          "A gamma distribution of a larger effective variance holds infinitely many drops");
     return GammaSizes{1 / s.variance - 3, 1 / (effective_radius_um * s.variance), 1};
   }
   if (s.type == "lognormal") {
@@ -101,11 +107,13 @@ std::variant<OneSize, GammaSizes, LognormalSizes> kind_of(const SizesSettings& s
 }  // namespace
 
 void list_keys(Keys& keys, SizesSettings& s) {
-  keys.choice("type", s.type, {"monodisperse", "gamma", "lognormal", "modified_gamma", "marshall_palmer"},
+  keys.choice("type", s.type,
+              {"monodisperse", "gamma", "lognormal", "modified_gamma", "marshall_palmer"},
               "how the radii are distributed around the effective radius");
   if (keys.only_if(s.type == "gamma" || s.type == "lognormal", "type = gamma or lognormal")) {
     keys.number("variance", s.variance, above(0), "effective variance; gamma: below 0.5");
-    if (s.type == "gamma" && !(s.variance < 0.5)) keys.refuse("variance", number_text(s.variance), "must be below 0.5");
+    if (s.type == "gamma" && !(s.variance < 0.5))
+      keys.refuse("variance", number_text(s.variance), "must be below 0.5");
   }
   if (keys.only_if(s.type == "modified_gamma", "type = modified_gamma")) {
     keys.number("alpha", s.alpha, above(-1), "n ~ r^alpha exp(-b r^gamma)");
@@ -157,7 +165,8 @@ Sizes::Range Sizes::range_um(double neglected_share) const {
 std::vector<double> Sizes::weights(std::span<const double> radius_um) const {
   assert(radius_um.size() >= 2);
   std::vector<double> weight(radius_um.size(), 0.0);
-  const auto add = [&](std::size_t i, double cross_section, double t) {  // t: place between nodes i and i + 1
+  const auto add = [&](std::size_t i, double cross_section,
+                       double t) {  // t: place between nodes i and i + 1
     weight[i] += (1 - t) * cross_section / (radius_um[i] * radius_um[i]);
     weight[i + 1] += t * cross_section / (radius_um[i + 1] * radius_um[i + 1]);
   };
@@ -170,7 +179,8 @@ std::vector<double> Sizes::weights(std::span<const double> radius_um) const {
     return weight;
   }
   static const Quadrature rule = gauss_legendre(8);
-  // Pieces of the log-radius axis narrow against the distribution, whose width in ln r is about the root of its variance.
+  // Pieces of the log-radius axis narrow against the distribution, whose width in ln r is about the
+  // root of its variance.
   const double widest = std::sqrt(std::min(effective_variance(), 1.0));
   for (std::size_t i = 0; i + 1 < radius_um.size(); ++i) {
     const double start = std::log(radius_um[i]), length = std::log(radius_um[i + 1]) - start;
@@ -186,7 +196,9 @@ std::vector<double> Sizes::weights(std::span<const double> radius_um) const {
   return weight;
 }
 
-double marshall_palmer_slope_per_mm(double rain_mm_per_hour) { return 4.1 * std::pow(rain_mm_per_hour, -0.21); }
+double marshall_palmer_slope_per_mm(double rain_mm_per_hour) {
+  return 4.1 * std::pow(rain_mm_per_hour, -0.21);
+}
 
 double marshall_palmer_effective_radius_um(double rain_mm_per_hour) {
   return um_from_mm(1.5 / marshall_palmer_slope_per_mm(rain_mm_per_hour));

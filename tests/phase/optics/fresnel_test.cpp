@@ -26,8 +26,10 @@ TEST(Fresnel, ReflectedAndTransmittedPowerMakeOne) {
     for (double c = 0.02; c < 1; c += 0.07) {
       const auto a = fresnel_amplitudes(c, m);
       const double ratio = (m * a.cos_transmitted).real() / c;
-      EXPECT_NEAR(std::norm(a.r_perpendicular) + ratio * std::norm(a.t_perpendicular), 1, 1e-12) << m << " " << c;
-      EXPECT_NEAR(std::norm(a.r_parallel) + ratio * std::norm(a.t_parallel), 1, 1e-12) << m << " " << c;
+      EXPECT_NEAR(std::norm(a.r_perpendicular) + ratio * std::norm(a.t_perpendicular), 1, 1e-12)
+          << m << " " << c;
+      EXPECT_NEAR(std::norm(a.r_parallel) + ratio * std::norm(a.t_parallel), 1, 1e-12)
+          << m << " " << c;
       const auto powers = fresnel_reflectance(c, m);
       EXPECT_NEAR(powers.perpendicular, std::norm(a.r_perpendicular), 1e-12);
       EXPECT_NEAR(powers.parallel, std::norm(a.r_parallel), 1e-12);
@@ -49,9 +51,11 @@ TEST(Fresnel, FollowsStokesRelationsForTheWayBack) {
   const auto out = fresnel_amplitudes(in.cos_transmitted, 1 / m);
   EXPECT_NEAR(std::abs(out.r_perpendicular + in.r_perpendicular), 0, 1e-14);
   EXPECT_NEAR(std::abs(out.r_parallel + in.r_parallel), 0, 1e-14);
-  EXPECT_NEAR(std::abs(in.t_perpendicular * out.t_perpendicular - (1.0 - in.r_perpendicular * in.r_perpendicular)), 0,
+  EXPECT_NEAR(std::abs(in.t_perpendicular * out.t_perpendicular -
+                       (1.0 - in.r_perpendicular * in.r_perpendicular)),
+              0, 1e-14);
+  EXPECT_NEAR(std::abs(in.t_parallel * out.t_parallel - (1.0 - in.r_parallel * in.r_parallel)), 0,
               1e-14);
-  EXPECT_NEAR(std::abs(in.t_parallel * out.t_parallel - (1.0 - in.r_parallel * in.r_parallel)), 0, 1e-14);
 }
 
 }  // namespace arcus::phase

@@ -19,7 +19,9 @@ std::string message_of(const auto& act) {
   return "no error";
 }
 
-bool contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
+bool contains(const std::string& text, std::string_view part) {
+  return text.find(part) != std::string::npos;
+}
 
 }  // namespace
 
@@ -48,13 +50,15 @@ TEST(RefractiveIndex, BetweenRowsStaysWithinTheStatedErrorOfTheFit) {
 
 TEST(RefractiveIndex, OfIceIsWarrenAndBrandtsRelativeToAir) {
   const auto m = RefractiveIndex::ice().relative_to_air(550);
-  EXPECT_NEAR(m.real(), 1.3110 / air_index(550), 1e-4);  // J. Geophys. Res. 113, D14220: 1.3110 at 550 nm
+  EXPECT_NEAR(m.real(), 1.3110 / air_index(550),
+              1e-4);  // J. Geophys. Res. 113, D14220: 1.3110 at 550 nm
   EXPECT_GT(m.imag(), 1e-9);
   EXPECT_LT(m.imag(), 4e-9);
 }
 
 TEST(RefractiveIndex, InterpolatesNLinearlyAndKGeometrically) {
-  const auto index = RefractiveIndex::from_text("nm,n,k\n500,1.3,1e-8\n600,1.4,1e-6\n700,1.4,0\n", "m.txt");
+  const auto index =
+      RefractiveIndex::from_text("nm,n,k\n500,1.3,1e-8\n600,1.4,1e-6\n700,1.4,0\n", "m.txt");
   const auto m = index.relative_to_air(550);
   EXPECT_DOUBLE_EQ(m.real(), 1.35);
   EXPECT_NEAR(m.imag(), 1e-7, 1e-15);
@@ -71,7 +75,8 @@ TEST(RefractiveIndex, ConstantIsTheSameEverywhere) {
 
 TEST(RefractiveIndex, IsNotExtrapolated) {
   for (const double nm : {299.9, 1000.1, -1.0, std::nan("")})
-    EXPECT_TRUE(contains(message_of([&] { RefractiveIndex::water().relative_to_air(nm); }), "between 300 and 1000 nm"));
+    EXPECT_TRUE(contains(message_of([&] { RefractiveIndex::water().relative_to_air(nm); }),
+                         "between 300 and 1000 nm"));
 }
 
 TEST(RefractiveIndex, RefusesWrongTables) {

@@ -18,9 +18,12 @@ struct Case {
 };
 
 std::vector<Case> every_kind() {
-  return {{{.type = "gamma", .variance = 0.1}, 10},        {{.type = "gamma", .variance = 0.01}, 500},
-          {{.type = "gamma", .variance = 0.4}, 3},         {{.type = "lognormal", .variance = 0.2}, 7},
-          {{.type = "modified_gamma", .alpha = 8, .gamma = 3}, 4.31}, {{.type = "marshall_palmer"}, 513}};
+  return {{{.type = "gamma", .variance = 0.1}, 10},
+          {{.type = "gamma", .variance = 0.01}, 500},
+          {{.type = "gamma", .variance = 0.4}, 3},
+          {{.type = "lognormal", .variance = 0.2}, 7},
+          {{.type = "modified_gamma", .alpha = 8, .gamma = 3}, 4.31},
+          {{.type = "marshall_palmer"}, 513}};
 }
 
 std::vector<double> log_grid(double low, double high, int nodes) {
@@ -58,7 +61,9 @@ TEST(Sizes, MomentsAreTheIntegralsOfTheDensity) {
     for (const double order : {1.0, 2.0, 3.0, 4.0}) {
       const double expected = sizes.mean_power_um(order);
       const double integral = integrate(
-          [&](double u) { return std::pow(std::exp(u), order + 1) * sizes.number_per_um(std::exp(u)); },
+          [&](double u) {
+            return std::pow(std::exp(u), order + 1) * sizes.number_per_um(std::exp(u));
+          },
           std::log(range.low_um * 0.01), std::log(range.high_um * 1.3), 1e-9 * expected);
       EXPECT_NEAR(integral / expected, 1, 2e-6) << c.settings.type << " <r^" << order << ">";
     }
@@ -72,8 +77,8 @@ TEST(Sizes, RangeLeavesOutTheShareOfCrossSectionAskedFor) {
       const Sizes sizes(c.settings, c.effective_radius_um);
       const auto range = sizes.range_um(share);
       const double inside = integrate(
-          [&](double u) { return std::exp(3 * u) * sizes.number_per_um(std::exp(u)); }, std::log(range.low_um),
-          std::log(range.high_um), 1e-10 * sizes.mean_power_um(2));
+          [&](double u) { return std::exp(3 * u) * sizes.number_per_um(std::exp(u)); },
+          std::log(range.low_um), std::log(range.high_um), 1e-10 * sizes.mean_power_um(2));
       EXPECT_NEAR((1 - inside / sizes.mean_power_um(2)) / share, 1, 1e-3) << c.settings.type;
     }
 }
@@ -130,7 +135,8 @@ TEST(Sizes, OneSizeSharesItsWeightBetweenItsNeighbours) {
   EXPECT_NEAR(between[0] * 81 + between[1] * 121, 100, 1e-12);
 }
 
-// Marshall & Palmer, J. Meteor. 5, 165 (1948): Lambda = 4.1 R^-0.21 per mm; the other columns follow with N0 = 8000.
+// Marshall & Palmer, J. Meteor. 5, 165 (1948): Lambda = 4.1 R^-0.21 per mm; the other columns
+// follow with N0 = 8000.
 TEST(MarshallPalmer, HasItsSlopeRadiusWaterAndExtinction) {
   struct Row {
     double rain_mm_per_hour, slope_per_mm, effective_radius_mm, water_g_per_m3, extinction_per_km;
@@ -143,32 +149,37 @@ TEST(MarshallPalmer, HasItsSlopeRadiusWaterAndExtinction) {
     EXPECT_NEAR(sizes.effective_variance(), 1 / 3.0, 1e-9);
     const double per_m3 = marshall_palmer_drops_per_m3(row.rain_mm_per_hour);
     EXPECT_NEAR(4 * pi / 3 * sizes.mean_power_um(3) * 1e-12 * per_m3, row.water_g_per_m3, 5.1e-4);
-    EXPECT_NEAR(2 * pi * sizes.mean_power_um(2) * 1e-12 * per_m3 * 1000, row.extinction_per_km, 5.1e-4);
-    EXPECT_NEAR(marshall_palmer_rain_mm_per_hour(sizes.effective_radius_um()) / row.rain_mm_per_hour, 1, 1e-9);
+    EXPECT_NEAR(2 * pi * sizes.mean_power_um(2) * 1e-12 * per_m3 * 1000, row.extinction_per_km,
+                5.1e-4);
+    EXPECT_NEAR(
+        marshall_palmer_rain_mm_per_hour(sizes.effective_radius_um()) / row.rain_mm_per_hour, 1,
+        1e-9);
   }
 }
 
-// D. Deirmendjian, Electromagnetic Scattering on Spherical Polydispersions (1969); E. P. Shettle and R. W. Fenn,
-// AFGL-TR-79-0214 (1979): n(r) = a r^alpha exp(-b r^gamma) with a total number that they state.
+// D. Deirmendjian, Electromagnetic Scattering on Spherical Polydispersions (1969); E. P. Shettle
+// and R. W. Fenn, AFGL-TR-79-0214 (1979): n(r) = a r^alpha exp(-b r^gamma) with a total number that
+// they state.
 TEST(ModifiedGamma, GivesTheLiteraturesHazesCloudsAndFogs) {
   struct Row {
     const char* name;
     double a, alpha, b, gamma, number_per_cm3, effective_radius_um, effective_variance;
   };
-  for (const Row& row : {Row{"Cloud C.1", 2.373, 6, 1.5, 1, 100, 6, 0.111},
-                         Row{"Cloud C.2", 0.010851, 8, 0.041667, 3, 100, 4.31, 0.0321},
-                         Row{"Cloud C.3", 5.5556, 8, 0.33333, 3, 100, 2.16, 0.0321},
-                         Row{"Haze M", 53333, 1, 8.9443, 0.5, 100, 0.9, 0.528},
-                         Row{"Haze L", 4.9757e6, 2, 15.119, 0.5, 100, 0.481, 0.418},
-                         Row{"Haze H", 4e5, 2, 20, 1, 100, 0.25, 0.2},
-                         Row{"Fog 1", 0.027, 3, 0.3, 1, 20, 20, 0.167},
-                         Row{"Fog 4", 607.5, 6, 3, 1, 200, 3, 0.111}}) {
+  for (const Row& row :
+       {Row{"Cloud C.1", 2.373, 6, 1.5, 1, 100, 6, 0.111},
+        Row{"Cloud C.2", 0.010851, 8, 0.041667, 3, 100, 4.31, 0.0321},
+        Row{"Cloud C.3", 5.5556, 8, 0.33333, 3, 100, 2.16, 0.0321},
+        Row{"Haze M", 53333, 1, 8.9443, 0.5, 100, 0.9, 0.528},
+        Row{"Haze L", 4.9757e6, 2, 15.119, 0.5, 100, 0.481, 0.418},
+        Row{"Haze H", 4e5, 2, 20, 1, 100, 0.25, 0.2}, Row{"Fog 1", 0.027, 3, 0.3, 1, 20, 20, 0.167},
+        Row{"Fog 4", 607.5, 6, 3, 1, 200, 3, 0.111}}) {
     const SizesSettings settings{.type = "modified_gamma", .alpha = row.alpha, .gamma = row.gamma};
     const Sizes sizes(settings, row.effective_radius_um);
     EXPECT_NEAR(sizes.effective_variance(), row.effective_variance, 5.1e-4) << row.name;
     // a and b return where the effective radius has the digits printed
     const double r = row.effective_radius_um;
-    const double printed = row.a * std::pow(r, row.alpha) * std::exp(-row.b * std::pow(r, row.gamma));
+    const double printed =
+        row.a * std::pow(r, row.alpha) * std::exp(-row.b * std::pow(r, row.gamma));
     EXPECT_NEAR(sizes.number_per_um(r) * row.number_per_cm3 / printed, 1, 2e-2) << row.name;
   }
 }
@@ -189,7 +200,8 @@ TEST(Sizes, SettingsSurviveWritingAndReading) {
     const std::string text = text_of(c.settings);
     EXPECT_EQ(text_of(settings_from_text<SizesSettings>(text, "sizes.toml")), text);
   }
-  EXPECT_THROW(settings_from_text<SizesSettings>("type = 'gamma'\nvariance = 0.5\n", "sizes.toml"), Error);
+  EXPECT_THROW(settings_from_text<SizesSettings>("type = 'gamma'\nvariance = 0.5\n", "sizes.toml"),
+               Error);
   EXPECT_THROW(settings_from_text<SizesSettings>("type = 'gama'\n", "sizes.toml"), Error);
 }
 
