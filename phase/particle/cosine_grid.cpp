@@ -14,8 +14,9 @@ using Tables = CosineGrid::Tables;
 // Largest degree that a grid serves, as a share of its points.
 constexpr double band = 2.0 / 3;
 
-// Kaiser & Bessel's bell of `taps` grid steps, for frequencies up to band/2 per step: I0(beta sqrt(1 - (2 u/taps)^2)).
-// beta puts the first frequency that aliases, 1 - band/2, on the edge of its main lobe.
+// Kaiser & Bessel's bell of `taps` grid steps, for frequencies up to band/2 per step: I0(beta
+// sqrt(1 - (2 u/taps)^2)). beta puts the first frequency that aliases, 1 - band/2, on the edge of
+// its main lobe.
 const double beta = pi * taps * (1 - band / 2);
 
 // Modified Bessel function I0 by its series.
@@ -51,7 +52,8 @@ std::vector<int> radices(int points) {
   return result;
 }
 
-// Where output k of the transform lies: the passes leave the outputs with k = r modulo the radix in block r.
+// Where output k of the transform lies: the passes leave the outputs with k = r modulo the radix in
+// block r.
 int place_of(int k, int points) {
   int place = 0, block = points;
   for (const int radix : radices(points)) {
@@ -62,68 +64,86 @@ int place_of(int k, int points) {
   return place;
 }
 
+template <typename Width>
 struct Number {
-  Doubles re, im;
+  typename Width::Doubles re, im;
 };
 
-[[gnu::always_inline]] inline Number load(const Doubles* at) { return {at[0], at[1]}; }
+// Complex numbers of eight spheres, seen as vectors that hold all of them or a half.
+template <typename Width>
+struct Numbers {
+  using Doubles = typename Width::Doubles;
 
-[[gnu::always_inline]] inline void store(Doubles* at, const Number& z) {
-  at[0] = z.re;
-  at[1] = z.im;
-}
+  [[gnu::always_inline]] Number<Width> load(int k) const {
+    return {first[2 * k * Width::parts], first[(2 * k + 1) * Width::parts]};
+  }
+  [[gnu::always_inline]] void store(int k, const Number<Width>& z) const {
+    first[2 * k * Width::parts] = z.re;
+    first[(2 * k + 1) * Width::parts] = z.im;
+  }
+  [[gnu::always_inline]] void store_turned(int k, const Number<Width>& z,
+                                           const std::complex<double>& turn) const {
+    store(k, {z.re * turn.real() - z.im * turn.imag(), z.re * turn.imag() + z.im * turn.real()});
+  }
+  Numbers from(int k) const { return {first + 2 * k * Width::parts}; }
 
-[[gnu::always_inline]] inline void store_turned(Doubles* at, const Number& z, const std::complex<double>& turn) {
-  at[0] = z.re * turn.real() - rounded(z.im * turn.imag());
-  at[1] = z.re * turn.imag() + rounded(z.im * turn.real());
-}
+  Doubles* first;
+};
 
-// One pass with exp(+2 pi i/radix) over blocks of `block` points: decimation in frequency, in place.
-[[gnu::always_inline]] inline void pass4(const Tables& tables, Doubles* data, int count, int block) {
+// One pass with exp(+2 pi i/4) over blocks of `block` numbers: decimation in frequency, in place.
+template <typename Width>
+[[gnu::always_inline]] inline void pass4(const Tables& tables, const Numbers<Width>& data,
+                                         int count, int block) {
   const int quarter = block / 4, step = tables.points / block;
   const std::complex<double>* turn = tables.turn.data();
   for (int start = 0; start < count; start += block)
     for (int j = 0; j < quarter; ++j) {
-      Doubles* at[4];
-      for (int i = 0; i < 4; ++i) at[i] = data + 2 * (start + j + i * quarter);
-      const Number z0 = load(at[0]), z1 = load(at[1]), z2 = load(at[2]), z3 = load(at[3]);
-      const Number sum = {z0.re + z2.re, z0.im + z2.im}, difference = {z0.re - z2.re, z0.im - z2.im};
-      const Number odd_sum = {z1.re + z3.re, z1.im + z3.im}, odd_difference = {z1.re - z3.re, z1.im - z3.im};
-      store(at[0], {sum.re + odd_sum.re, sum.im + odd_sum.im});
-      store_turned(at[1], {difference.re - odd_difference.im, difference.im + odd_difference.re}, turn[j * step]);
-      store_turned(at[2], {sum.re - odd_sum.re, sum.im - odd_sum.im}, turn[2 * j * step]);
-      store_turned(at[3], {difference.re + odd_difference.im, difference.im - odd_difference.re}, turn[3 * j * step]);
+      const int k = start + j;
+      const auto z0 = data.load(k), z1 = data.load(k + quarter);
+      const auto z2 = data.load(k + 2 * quarter), z3 = data.load(k + 3 * quarter);
+      const Number<Width> even = {z0.re + z2.re, z0.im + z2.im},
+                          even_less = {z0.re - z2.re, z0.im - z2.im};
+      const Number<Width> odd = {z1.re + z3.re, z1.im + z3.im},
+                          odd_less = {z1.re - z3.re, z1.im - z3.im};
+      data.store(k, {even.re + odd.re, even.im + odd.im});
+      data.store_turned(k + quarter, {even_less.re - odd_less.im, even_less.im + odd_less.re},
+                        turn[j * step]);
+      data.store_turned(k + 2 * quarter, {even.re - odd.re, even.im - odd.im}, turn[2 * j * step]);
+      data.store_turned(k + 3 * quarter, {even_less.re + odd_less.im, even_less.im - odd_less.re},
+                        turn[3 * j * step]);
     }
 }
 
-[[gnu::always_inline]] inline void pass3(const Tables& tables, Doubles* data) {
+template <typename Width>
+[[gnu::always_inline]] inline void pass3(const Tables& tables, const Numbers<Width>& data) {
   const int third = tables.points / 3;
   const double sine = 0.86602540378443864676;  // of 120 degrees
-  for (int j = 0; j < third; ++j) {
-    Doubles* at[3];
-    for (int i = 0; i < 3; ++i) at[i] = data + 2 * (j + i * third);
-    const Number z0 = load(at[0]), z1 = load(at[1]), z2 = load(at[2]);
-    const Number sum = {z1.re + z2.re, z1.im + z2.im};
-    const Number turned = {rounded(sine * (z2.im - z1.im)), rounded(sine * (z1.re - z2.re))};  // i sin(120) (z1 - z2)
-    const Number centre = {z0.re - 0.5 * sum.re, z0.im - 0.5 * sum.im};
-    store(at[0], {z0.re + sum.re, z0.im + sum.im});
-    store_turned(at[1], {centre.re + turned.re, centre.im + turned.im}, tables.turn[j]);
-    store_turned(at[2], {centre.re - turned.re, centre.im - turned.im}, tables.turn[2 * j]);
+  for (int k = 0; k < third; ++k) {
+    const auto z0 = data.load(k), z1 = data.load(k + third), z2 = data.load(k + 2 * third);
+    const Number<Width> sum = {z1.re + z2.re, z1.im + z2.im};
+    const Number<Width> turned = {sine * (z2.im - z1.im), sine * (z1.re - z2.re)};
+    const Number<Width> centre = {z0.re - 0.5 * sum.re, z0.im - 0.5 * sum.im};
+    data.store(k, {z0.re + sum.re, z0.im + sum.im});
+    data.store_turned(k + third, {centre.re + turned.re, centre.im + turned.im}, tables.turn[k]);
+    data.store_turned(k + 2 * third, {centre.re - turned.re, centre.im - turned.im},
+                      tables.turn[2 * k]);
   }
 }
 
-[[gnu::always_inline]] inline void pass2(Doubles* data, int count) {
-  for (int j = 0; j < count; j += 2) {
-    const Number z0 = load(data + 2 * j), z1 = load(data + 2 * j + 2);
-    store(data + 2 * j, {z0.re + z1.re, z0.im + z1.im});
-    store(data + 2 * j + 2, {z0.re - z1.re, z0.im - z1.im});
+template <typename Width>
+[[gnu::always_inline]] inline void pass2(const Numbers<Width>& data, int count) {
+  for (int k = 0; k < count; k += 2) {
+    const auto z0 = data.load(k), z1 = data.load(k + 1);
+    data.store(k, {z0.re + z1.re, z0.im + z1.im});
+    data.store(k + 1, {z0.re - z1.re, z0.im - z1.im});
   }
 }
 
-// Blocks that stay in the first and second level cache while all their remaining passes run.
+// Blocks that stay in the second level cache while all their remaining passes run.
 constexpr int cached_points = 4096;
 
-[[gnu::always_inline]] inline void transform(const Tables& tables, Doubles* data) {
+template <typename Width>
+[[gnu::always_inline]] inline void transform(const Tables& tables, const Numbers<Width>& data) {
   int block = tables.points;
   if (block % 3 == 0) {
     pass3(tables, data);
@@ -132,60 +152,80 @@ constexpr int cached_points = 4096;
   for (; block > cached_points; block /= 4) pass4(tables, data, tables.points, block);
   for (int start = 0; start < tables.points; start += block) {
     int inner = block;
-    for (; inner >= 4; inner /= 4) pass4(tables, data + 2 * start, block, inner);
-    if (inner == 2) pass2(data + 2 * start, block);
+    for (; inner >= 4; inner /= 4) pass4(tables, data.from(start), block, inner);
+    if (inner == 2) pass2(data.from(start), block);
   }
 }
 
-// A cosine series of complex coefficients X at theta = (g + 1/2) pi/H is one complex transform of length H:
-// with W_0 = X_0, W_k = exp(i pi k/(2 H)) (X_k - i X_{H-k})/2 and v_j = sum of W_k exp(2 pi i j k/H), the values at even g
-// are v_{g/2}, at odd g v_{H-1-(g-1)/2}. (J. Makhoul, IEEE Trans. Acoust. Speech Signal Process. 28 (1980) 27-34.)
-[[gnu::always_inline]] inline Number coefficient(const Tables& tables, const Doubles* series, int k) {
+template <typename Width>
+[[gnu::always_inline]] inline Number<Width> coefficient(const Tables& tables,
+                                                        const typename Width::Doubles* series,
+                                                        int k) {
   const double scale = tables.scale[k];
-  return {rounded(scale * series[4 * k]), rounded(scale * series[4 * k + 1])};
+  return {scale * series[4 * k * Width::parts], scale * series[(4 * k + 1) * Width::parts]};
 }
 
-[[gnu::always_inline]] inline void prepare(const Tables& tables, int degree, const Doubles* series, Doubles* out) {
+// A cosine series of complex coefficients X at theta = (g + 1/2) pi/H is one complex transform of
+// length H: with W_0 = X_0, W_k = exp(i pi k/(2 H)) (X_k - i X_{H-k})/2 and v_j = sum of W_k exp(2
+// pi i j k/H), the values at even g are v_{g/2}, at odd g v_{H-1-(g-1)/2}. (J. Makhoul, IEEE Trans.
+// Acoust. Speech Signal Process. 28 (1980) 27-34.)
+template <typename Width>
+[[gnu::always_inline]] inline void prepare(const Tables& tables, int degree,
+                                           const typename Width::Doubles* series,
+                                           const Numbers<Width>& out) {
   const int points = tables.points;
-  const Doubles zero = {};
-  store(out, coefficient(tables, series, 0));
+  const typename Width::Doubles zero = {};
+  out.store(0, coefficient<Width>(tables, series, 0));
   for (int k = 1; k < points; ++k) {
     const int mirror = points - k;
-    const Number x = k <= degree ? coefficient(tables, series, k) : Number{zero, zero};
-    const Number y = mirror <= degree ? coefficient(tables, series, mirror) : Number{zero, zero};
-    store_turned(out + 2 * k, {x.re + y.im, x.im - y.re}, tables.half_turn[k]);
+    const auto x = k <= degree ? coefficient<Width>(tables, series, k) : Number<Width>{zero, zero};
+    const auto y =
+        mirror <= degree ? coefficient<Width>(tables, series, mirror) : Number<Width>{zero, zero};
+    out.store_turned(k, {x.re + y.im, x.im - y.re}, tables.half_turn[k]);
   }
 }
 
-[[gnu::always_inline]] inline void all(const Tables& tables, int degree, const Doubles* series, Doubles* work,
-                                       Floats16* grid, int half) {
+template <typename Width>
+[[gnu::always_inline]] inline void all(const Tables& tables, int degree, const double* series,
+                                       double* work, float* grid, int half) {
+  using Doubles = typename Width::Doubles;
+  using Floats = typename Width::Floats;
+  constexpr int parts = Width::parts, margin = taps / 2;
+  constexpr int number = 2 * parts,
+                row = 4 * number;  // Floats of a number of 16 spheres, and of four of them
   const int points = tables.points;
-  Floats8* rows = reinterpret_cast<Floats8*>(grid) + half;
-  for (int i = 0; i < 2; ++i) {
-    prepare(tables, degree, series + 2 * i, work);
-    transform(tables, work);
-    for (int g = 0; g < points; ++g) {
-      Floats8* row = rows + 8 * (g + taps / 2) + 4 * i;
-      const Doubles* value = work + 2 * tables.place[g];
-      row[0] = __builtin_convertvector(value[0], Floats8);
-      row[2] = __builtin_convertvector(value[1], Floats8);
+  for (int part = 0; part < parts; ++part) {
+    Floats* rows = reinterpret_cast<Floats*>(grid) + half * parts + part;
+    for (int i = 0; i < 2; ++i) {
+      const Numbers<Width> data = {reinterpret_cast<Doubles*>(work) + part};
+      prepare<Width>(tables, degree,
+                     reinterpret_cast<const Doubles*>(series) + 2 * i * parts + part, data);
+      transform(tables, data);
+      for (int g = 0; g < points; ++g) {
+        const auto value = data.load(tables.place[g]);
+        Floats* to = rows + (g + margin) * row + 2 * i * number;
+        to[0] = __builtin_convertvector(value.re, Floats);
+        to[number] = __builtin_convertvector(value.im, Floats);
+      }
     }
+    // The function is even about 0 and 180 degrees.
+    for (int i = 0; i < margin; ++i)
+      for (int c = 0; c < row; c += number) {
+        rows[(margin - 1 - i) * row + c] = rows[(margin + i) * row + c];
+        rows[(margin + points + i) * row + c] = rows[(margin + points - 1 - i) * row + c];
+      }
   }
-  // The function is even about 0 and 180 degrees.
-  for (int i = 0; i < taps / 2; ++i)
-    for (int c = 0; c < 8; c += 2) {
-      rows[8 * (taps / 2 - 1 - i) + c] = rows[8 * (taps / 2 + i) + c];
-      rows[8 * (taps / 2 + points + i) + c] = rows[8 * (taps / 2 + points - 1 - i) + c];
-    }
 }
 
-void all_avx2(const Tables& tables, int degree, const Doubles* series, Doubles* work, Floats16* grid, int half) {
-  all(tables, degree, series, work, grid, half);
+void all_avx2(const Tables& tables, int degree, const double* series, double* work, float* grid,
+              int half) {
+  all<Narrow>(tables, degree, series, work, grid, half);
 }
 
-[[gnu::target("arch=x86-64-v4")]] void all_avx512(const Tables& tables, int degree, const Doubles* series,
-                                                  Doubles* work, Floats16* grid, int half) {
-  all(tables, degree, series, work, grid, half);
+[[gnu::target("arch=x86-64-v4")]] void all_avx512(const Tables& tables, int degree,
+                                                  const double* series, double* work, float* grid,
+                                                  int half) {
+  all<Wide>(tables, degree, series, work, grid, half);
 }
 
 }  // namespace
@@ -218,9 +258,10 @@ CosineGrid::CosineGrid(int points, std::span<const double> angles_rad) : points_
   }
 }
 
-void CosineGrid::sum(int degree, const Doubles* series, Doubles* work, Floats16* grid, int half,
+void CosineGrid::sum(int degree, const double* series, double* work, float* grid, int half,
                      Instructions instructions) const {
-  (instructions == Instructions::avx512 ? all_avx512 : all_avx2)(tables_, degree, series, work, grid, half);
+  (instructions == Instructions::avx512 ? all_avx512 : all_avx2)(tables_, degree, series, work,
+                                                                 grid, half);
 }
 
 }  // namespace arcus::phase

@@ -1,6 +1,6 @@
 #pragma once
-// Which machine code a kernel runs. The baseline of the build has AVX2; a processor with AVX-512 runs the same
-// operations in the same order on vectors twice as wide, so that the bits are equal.
+// Which machine code a kernel runs. The baseline of the build has AVX2; a processor with AVX-512
+// runs the same operations in the same order on vectors twice as wide, so that the bits are equal.
 
 namespace arcus::phase {
 

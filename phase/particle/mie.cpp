@@ -11,14 +11,15 @@
 namespace arcus::phase {
 namespace {
 
-// The coefficients are computed with 64 bits of mantissa, as small and large spheres lose digits that 53 bits do not
-// have to spare, and with 113 where m is near 1: there a_n and b_n are differences of nearly equal numbers, and S2
-// at 90 degrees is a sum that nearly vanishes, so that |m - 1| = 1e-6 costs 14 digits.
+// The coefficients are computed with 64 bits of mantissa, as small and large spheres lose digits
+// that 53 bits do not have to spare, and with 113 where m is near 1: there a_n and b_n are
+// differences of nearly equal numbers, and S2 at 90 degrees is a sum that nearly vanishes, so that
+// |m - 1| = 1e-6 costs 14 digits.
 using Long = long double;
 using Quad = __float128;
 
-// Below this |m - 1| the long type is used, which is 40 times slower. Above it, S2 at 90 degrees and x = 1e3 keeps
-// nine digits.
+// Below this |m - 1| the long type is used, which is 40 times slower. Above it, S2 at 90 degrees
+// and x = 1e3 keeps nine digits.
 constexpr double nearly_matched = 1e-3;
 
 template <typename Number>
@@ -27,9 +28,11 @@ void sine_cosine(double angle, Number& sine, Number& cosine) {
   cosine = std::cos(Number(angle));
 }
 
-// The standard library has no sine for this type: Taylor's series about the nearest multiple of pi/2.
+// The standard library has no sine for this type: Taylor's series about the nearest multiple of
+// pi/2.
 void sine_cosine(double angle, Quad& sine, Quad& cosine) {
-  const Quad half_pi = Quad(0x1.921fb54442d18p+0) + Quad(0x1.1a62633145c07p-54) + Quad(-0x1.f1976b7ed8fbcp-110);
+  const Quad half_pi =
+      Quad(0x1.921fb54442d18p+0) + Quad(0x1.1a62633145c07p-54) + Quad(-0x1.f1976b7ed8fbcp-110);
   const double quadrant = std::nearbyint(angle / (pi / 2));
   const Quad r = Quad(angle) - Quad(quadrant) * half_pi;
   Quad even = 0, odd = 0, term = 1;
@@ -61,13 +64,13 @@ Complex<Real> reciprocal(Complex<Real> z) {
   return {z.real() * scale, -z.imag() * scale};
 }
 
-// Terms to sum. Beyond n = x the coefficients fall off as exp(-(4/3) y^(3/2)), y = 2^(1/3) (n - x) / x^(1/3)
-// (Airy's transition region): 7 x^(1/3) leaves 1e-15.
+// Terms to sum. Beyond n = x the coefficients fall off as exp(-(4/3) y^(3/2)), y = 2^(1/3) (n - x)
+// / x^(1/3) (Airy's transition region): 7 x^(1/3) leaves 1e-15.
 int series_length(double x) { return static_cast<int>(x + 7 * std::cbrt(x) + 10); }
 
-// rho_n(z) = psi_{n+1}(z) / psi_n(z), n = 0 ... terms, by downward recurrence, stable for every z. It starts so far
-// beyond |z| that the arbitrary first value is forgotten to 1e-30 before n < |z|, where errors no longer decay
-// (the same estimate as in series_length).
+// rho_n(z) = psi_{n+1}(z) / psi_n(z), n = 0 ... terms, by downward recurrence, stable for every z.
+// It starts so far beyond |z| that the arbitrary first value is forgotten to 1e-30 before n < |z|,
+// where errors no longer decay (the same estimate as in series_length).
 template <typename Real>
 std::vector<Complex<Real>> successive_ratio(Complex<Real> z, double size, int terms) {
   const int beyond = static_cast<int>(size + 12 * std::cbrt(size)) + 35;
@@ -81,8 +84,8 @@ std::vector<Complex<Real>> successive_ratio(Complex<Real> z, double size, int te
   return ratio;
 }
 
-// Riccati-Bessel functions psi_n(x) = x j_n(x), n = 0 ... terms. Upward recurrence is stable as long as n < x; from
-// there the ratio psi_n / psi_{n-1}, computed downward, takes over.
+// Riccati-Bessel functions psi_n(x) = x j_n(x), n = 0 ... terms. Upward recurrence is stable as
+// long as n < x; from there the ratio psi_n / psi_{n-1}, computed downward, takes over.
 template <typename Real>
 std::vector<Real> riccati_bessel_psi(double x, int terms) {
   std::vector<Real> psi(terms + 1);
@@ -111,11 +114,12 @@ struct Wave {
   Real absorption;  // Re a - |a|^2, without the cancellation
 };
 
-// The wave N / (N - iC). Bohren & Huffman eq. 4.88 with psi_n'(z) = (n + 1) psi_n(z) / z - psi_{n+1}(z) in it, which
-// leaves no terms that cancel in a small sphere, gives
+// The wave N / (N - iC). Bohren & Huffman eq. 4.88 with psi_n'(z) = (n + 1) psi_n(z) / z -
+// psi_{n+1}(z) in it, which leaves no terms that cancel in a small sphere, gives
 //   N = h psi_n + psi_{n+1},  C = h chi_n + chi_{n+1},
 //   h = (n + 1)/x (1/m^2 - 1) - rho_n(mx)/m  for a_n,  h = -m rho_n(mx)  for b_n.
-// As psi_n chi_{n+1} - psi_{n+1} chi_n = 1, Re a = (|N|^2 - Im h) / |N - iC|^2: both terms are positive.
+// As psi_n chi_{n+1} - psi_{n+1} chi_n = 1, Re a = (|N|^2 - Im h) / |N - iC|^2: both terms are
+// positive.
 template <typename Real>
 Wave<Real> partial_wave(Complex<Real> h, Real psi, Real psi_next, Real chi, Real chi_next) {
   const Complex<Real> n = h * psi + psi_next;
@@ -142,10 +146,12 @@ Series<Real> mie_series(double size_parameter, std::complex<double> relative_ind
 
   const Real x = size_parameter;
   const Complex<Real> m(relative_index.real(), relative_index.imag());
-  const auto ratio = successive_ratio<Real>(m * x, std::abs(relative_index) * size_parameter, terms);
+  const auto ratio =
+      successive_ratio<Real>(m * x, std::abs(relative_index) * size_parameter, terms);
   const auto psi = riccati_bessel_psi<Real>(size_parameter, terms + 1);
   const Complex<Real> inverse_m = reciprocal(m);
-  const Complex<Real> contrast = (Real(1) - m) * (Real(1) + m) * inverse_m * inverse_m;  // 1/m^2 - 1
+  const Complex<Real> contrast =
+      (Real(1) - m) * (Real(1) + m) * inverse_m * inverse_m;  // 1/m^2 - 1
   Real sine, chi;
   sine_cosine(size_parameter, sine, chi);
   Real chi_next = chi / x + sine;
@@ -162,9 +168,12 @@ Series<Real> mie_series(double size_parameter, std::complex<double> relative_ind
     const Real weight = 2 * n + 1;
     scattering += weight * (squared(a.amplitude) + squared(b.amplitude));
     absorption += weight * (a.absorption + b.absorption);
-    const auto product = [](Complex<Real> u, Complex<Real> v) { return u.real() * v.real() + u.imag() * v.imag(); };
+    const auto product = [](Complex<Real> u, Complex<Real> v) {
+      return u.real() * v.real() + u.imag() * v.imag();
+    };
     asymmetry += weight / (Real(n) * (n + 1)) * product(a.amplitude, b.amplitude);
-    asymmetry += (Real(n) - 1) * (n + 1) / n * (product(a_before, a.amplitude) + product(b_before, b.amplitude));
+    asymmetry += (Real(n) - 1) * (n + 1) / n *
+                 (product(a_before, a.amplitude) + product(b_before, b.amplitude));
     back += (n % 2 ? weight : -weight) * (a.amplitude - b.amplitude);
     a_before = series.a[n] = a.amplitude;
     b_before = series.b[n] = b.amplitude;
@@ -173,7 +182,8 @@ Series<Real> mie_series(double size_parameter, std::complex<double> relative_ind
   series.efficiencies.scattering = static_cast<double>(2 / x2 * scattering);
   series.efficiencies.extinction = static_cast<double>(2 / x2 * (scattering + absorption));
   series.efficiencies.backscatter = static_cast<double>(squared(back) / x2);
-  series.efficiencies.asymmetry = scattering > 0 ? static_cast<double>(2 * asymmetry / scattering) : 0.0;
+  series.efficiencies.asymmetry =
+      scattering > 0 ? static_cast<double>(2 * asymmetry / scattering) : 0.0;
   return series;
 }
 
@@ -189,18 +199,20 @@ std::vector<Term<Number>> weighted_terms(const Series<Real>& series) {
   for (std::size_t n = 1; n < series.a.size(); ++n) {
     const Real weight = Real(2 * n + 1) / (Real(n) * (n + 1));
     const Complex<Real> a = weight * series.a[n], b = weight * series.b[n];
-    terms.push_back({Number(1 / Real(n)), Number(a.real()), Number(a.imag()), Number(b.real()), Number(b.imag())});
+    terms.push_back({Number(1 / Real(n)), Number(a.real()), Number(a.imag()), Number(b.real()),
+                     Number(b.imag())});
   }
   return terms;
 }
 
 // S1 and S2 at up to `width` angles at once.
-// Recurrence for pi_n and tau_n from Wiscombe (1980), eq. 27-29, rewritten for the difference d = pi_n - pi_{n-1} and
-// e = 1 - cos(theta), so that nothing cancels near the forward direction. Angles beyond 90 degrees use
-// pi_n(-mu) = (-1)^(n+1) pi_n(mu), tau_n(-mu) = (-1)^n tau_n(mu) and are as good near the backward direction.
+// Recurrence for pi_n and tau_n from Wiscombe (1980), eq. 27-29, rewritten for the difference d =
+// pi_n - pi_{n-1} and e = 1 - cos(theta), so that nothing cancels near the forward direction.
+// Angles beyond 90 degrees use pi_n(-mu) = (-1)^(n+1) pi_n(mu), tau_n(-mu) = (-1)^n tau_n(mu) and
+// are as good near the backward direction.
 template <typename Number, int width>
-void sum_series(std::span<const Term<Number>> terms, std::span<const double> angles_rad, std::complex<double>* s1,
-                std::complex<double>* s2) {
+void sum_series(std::span<const Term<Number>> terms, std::span<const double> angles_rad,
+                std::complex<double>* s1, std::complex<double>* s2) {
   Number versine[width], mirror[width], sign[width];
   Number value[width], difference[width], before[width];
   Number sum[4][width] = {};  // S1, S2: real, imaginary parts
@@ -241,7 +253,8 @@ void sum_series(std::span<const Term<Number>> terms, std::span<const double> ang
   }
 }
 
-// One amplitude nearly vanishes: S2 at 90 degrees of small spheres and of |m - 1| << 1, where the series cancels.
+// One amplitude nearly vanishes: S2 at 90 degrees of small spheres and of |m - 1| << 1, where the
+// series cancels.
 bool nearly_vanishes(std::complex<double> s1, std::complex<double> s2) {
   return std::min(std::abs(s1), std::abs(s2)) < 1e-4 * std::max(std::abs(s1), std::abs(s2));
 }
@@ -280,14 +293,16 @@ SphereAmplitudes mie_sphere(double size_parameter, std::complex<double> relative
                             std::span<const double> scattering_angles_rad) {
   const double n = relative_index.real(), k = relative_index.imag();
   // Written so that NaN is refused too.
-  require(size_parameter >= 1e-20 && size_parameter <= 1e6, "size parameter of a sphere", size_parameter,
-          "must be from 1e-20 to 1e6");
+  require(size_parameter >= 1e-20 && size_parameter <= 1e6, "size parameter of a sphere",
+          size_parameter, "must be from 1e-20 to 1e6");
   require(n > 0 && std::isfinite(n), "real part of a relative index", n, "must be above 0");
-  require(k >= 0 && std::isfinite(k), "imaginary part of a relative index", k, "must be at least 0");
+  require(k >= 0 && std::isfinite(k), "imaginary part of a relative index", k,
+          "must be at least 0");
   require(std::abs(relative_index) * size_parameter <= 1e8, "relative index times size parameter",
           std::abs(relative_index) * size_parameter, "must be at most 1e8");
   for (const double angle : scattering_angles_rad)
-    require(angle >= 0 && angle <= pi * (1 + 1e-15), "scattering angle", angle, "must be from 0 to pi (radians)");
+    require(angle >= 0 && angle <= pi * (1 + 1e-15), "scattering angle", angle,
+            "must be from 0 to pi (radians)");
 
   return std::abs(relative_index - 1.0) < nearly_matched
              ? evaluate<Quad>(size_parameter, relative_index, scattering_angles_rad)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <string>
 #include <vector>
@@ -43,66 +44,85 @@ void require(bool right, const char* what, double found, const char* expected) {
   }
 }
 
-// Amplitudes from the grid at all angles, and their products. Lanes are spheres, until squares of eight by eight are
-// turned; the result goes to memory in runs of many angles, which costs fewer page look-ups.
-// matrix: [count][element][angle].
-[[gnu::always_inline]] inline void interpolate(std::span<const int> first_rows, std::span<const float> weights,
-                                               const Floats16* grid, int count, float* matrix) {
-  constexpr int run = 64;
+// Amplitudes from the grid at all angles, and their products. Lanes are spheres, until squares of
+// eight by eight are turned; the result goes to memory in runs of many angles, which costs fewer
+// page look-ups. matrix: [count][element][angle].
+template <typename Width>
+[[gnu::always_inline]] inline void interpolate(std::span<const int> first_rows,
+                                               std::span<const float> weights, const float* grid,
+                                               int count, float* matrix) {
+  using Floats = typename Width::FullFloats;
+  constexpr int parts = Width::parts, run = 64;
   Floats8 turned[mie_block_radii][mie_block_elements][run / 8];
   const int angles = static_cast<int>(first_rows.size());
   for (int start = 0; start < angles; start += run) {
     const int here = std::min(run, angles - start);
     for (int group = 0; group < here; group += 8) {
-      Floats16 element[mie_block_elements][8];
+      Floats element[mie_block_elements][8][parts];
       for (int i = 0; i < 8; ++i) {
         const int angle = start + std::min(group + i, here - 1);
-        const Floats16* row = grid + 4 * first_rows[angle];
+        const Floats* rows = reinterpret_cast<const Floats*>(grid) + 4 * parts * first_rows[angle];
         const float* weight = &weights[angle * taps];
-        Floats16 sum[4] = {};
-        for (int tap = 0; tap < taps; ++tap)
-          for (int c = 0; c < 4; ++c) sum[c] += weight[tap] * row[4 * tap + c];
-        const Floats16 power1 = sum[0] * sum[0] + rounded(sum[1] * sum[1]);
-        const Floats16 power2 = sum[2] * sum[2] + rounded(sum[3] * sum[3]);
-        element[0][i] = 0.5f * (power2 + power1);
-        element[1][i] = 0.5f * (power2 - power1);
-        element[2][i] = sum[2] * sum[0] + rounded(sum[3] * sum[1]);
-        element[3][i] = sum[3] * sum[0] - rounded(sum[2] * sum[1]);
+        for (int part = 0; part < parts; ++part) {
+          Floats re1 = {}, im1 = {}, re2 = {}, im2 = {};  // S1 and S2
+          for (int tap = 0; tap < taps; ++tap) {
+            const Floats* row = rows + 4 * tap * parts + part;
+            const auto share = filled<Floats>(weight[tap]);
+            add_product(re1, share, row[0]);
+            add_product(im1, share, row[parts]);
+            add_product(re2, share, row[2 * parts]);
+            add_product(im2, share, row[3 * parts]);
+          }
+          const Floats power1 = re1 * re1 + im1 * im1, power2 = re2 * re2 + im2 * im2;
+          element[0][i][part] = 0.5f * (power2 + power1);
+          element[1][i][part] = 0.5f * (power2 - power1);
+          element[2][i][part] = re2 * re1 + im2 * im1;
+          element[3][i][part] = im2 * re1 - re2 * im1;
+        }
       }
       for (int half = 0; half < 2; ++half)
         for (int e = 0; e < mie_block_elements; ++e) {
           Floats8 square[8];
-          for (int i = 0; i < 8; ++i) square[i] = reinterpret_cast<const Floats8*>(&element[e][i])[half];
+          for (int i = 0; i < 8; ++i)
+            square[i] = reinterpret_cast<const Floats8*>(&element[e][i])[half];
           transpose(square);
           for (int i = 0; i < lanes; ++i) turned[half * lanes + i][e][group / 8] = square[i];
         }
     }
     for (int i = 0; i < count; ++i)
-      for (int e = 0; e < mie_block_elements; ++e)
-        std::copy_n(reinterpret_cast<const float*>(turned[i][e]), here,
-                    matrix + (static_cast<std::ptrdiff_t>(i) * mie_block_elements + e) * angles + start);
+      for (int e = 0; e < mie_block_elements; ++e) {
+        float* to =
+            matrix + (static_cast<std::ptrdiff_t>(i) * mie_block_elements + e) * angles + start;
+        if (here == run)
+          std::memcpy(to, turned[i][e], run * sizeof(float));  // of known length: a few wide moves
+        else
+          std::memcpy(to, turned[i][e], here * sizeof(float));
+      }
   }
 }
 
-void interpolate_avx2(std::span<const int> first_rows, std::span<const float> weights, const Floats16* grid, int count,
-                      float* matrix) {
-  interpolate(first_rows, weights, grid, count, matrix);
+void interpolate_avx2(std::span<const int> first_rows, std::span<const float> weights,
+                      const float* grid, int count, float* matrix) {
+  interpolate<Narrow>(first_rows, weights, grid, count, matrix);
 }
 
 [[gnu::target("arch=x86-64-v4")]] void interpolate_avx512(std::span<const int> first_rows,
-                                                          std::span<const float> weights, const Floats16* grid,
-                                                          int count, float* matrix) {
-  interpolate(first_rows, weights, grid, count, matrix);
+                                                          std::span<const float> weights,
+                                                          const float* grid, int count,
+                                                          float* matrix) {
+  interpolate<Wide>(first_rows, weights, grid, count, matrix);
 }
 
 }  // namespace
 
-// What the spheres of a table share: reciprocals for the recurrences, the conversion of the series, and a grid for every
-// length that a series may have.
+// What the spheres of a table share: reciprocals for the recurrences, the conversion of the series,
+// and a grid for every length that a series may have.
 struct MieAngles::Plan {
   Plan(std::span<const double> angles_rad, double largest)
-      : angles(angles_rad.size()), largest_size_parameter(largest),
-        conversion(mie_block_terms(largest)), inverse(mie_block_terms(largest) + 3) {
+      : angles(angles_rad.size()),
+        largest_size_parameter(largest),
+        conversion(mie_block_terms(largest)),
+        inverse(mie_block_terms(largest) + 3) {
     for (std::size_t n = 1; n < inverse.size(); ++n) inverse[n] = 1.0 / static_cast<double>(n);
     for (int points = CosineGrid::points_for(0);; points = CosineGrid::points_for(points * 2 / 3)) {
       grids.emplace(points, CosineGrid(points, angles_rad));
@@ -122,7 +142,8 @@ MieAngles::MieAngles(std::span<const double> scattering_angles_rad, double large
   require(largest_size_parameter > 0 && largest_size_parameter <= 1e5, "largest size parameter",
           largest_size_parameter, "must be above 0 and at most 1e5");
   for (const double angle : scattering_angles_rad)
-    require(angle >= 0 && angle <= pi * (1 + 1e-15), "scattering angle", angle, "must be from 0 to pi (radians)");
+    require(angle >= 0 && angle <= pi * (1 + 1e-15), "scattering angle", angle,
+            "must be from 0 to pi (radians)");
   plan_ = std::make_unique<const Plan>(scattering_angles_rad, largest_size_parameter);
 }
 
@@ -134,14 +155,19 @@ double MieAngles::largest_size_parameter() const { return plan_->largest_size_pa
 
 struct MieBlock::Memory {
   Memory(const MieAngles& shared_angles, Instructions machine_code)
-      : Memory(shared_angles, machine_code, mie_block_terms(shared_angles.largest_size_parameter())) {}
+      : Memory(shared_angles, machine_code,
+               mie_block_terms(shared_angles.largest_size_parameter())) {}
   Memory(const MieAngles& shared_angles, Instructions machine_code, int terms)
-      : angles(&shared_angles), instructions(machine_code), legendre(LegendreToChebyshev::series_size(terms)),
+      : angles(&shared_angles),
+        instructions(machine_code),
+        legendre(LegendreToChebyshev::series_size(terms)),
         chebyshev(LegendreToChebyshev::series_size(terms)),
-        work(std::max<std::size_t>(LegendreToChebyshev::scratch_size(terms), 2 * CosineGrid::points_for(terms))),
-        amplitudes(CosineGrid::grid_size(CosineGrid::points_for(terms))) {}
+        work(std::max<std::size_t>(LegendreToChebyshev::scratch_size(terms),
+                                   2 * CosineGrid::points_for(terms))),
+        amplitudes(CosineGrid::grid_size(CosineGrid::points_for(terms)) * sizeof(float) /
+                   (lanes * sizeof(double))) {}
 
-  Floats16* grid_values() const { return reinterpret_cast<Floats16*>(amplitudes.data()); }
+  float* grid_values() const { return reinterpret_cast<float*>(amplitudes.data()); }
 
   const MieAngles* angles;
   Instructions instructions;
@@ -157,11 +183,13 @@ MieBlock::~MieBlock() = default;
 MieBlock::MieBlock(MieBlock&&) noexcept = default;
 MieBlock& MieBlock::operator=(MieBlock&&) noexcept = default;
 
-void MieBlock::compute(std::span<const double> size_parameters, std::complex<double> relative_index) {
+void MieBlock::compute(std::span<const double> size_parameters,
+                       std::complex<double> relative_index) {
   const MieAngles::Plan& plan = memory_->angles->plan();
   const double n = relative_index.real(), k = relative_index.imag();
   require(n > 0 && std::isfinite(n), "real part of a relative index", n, "must be above 0");
-  require(k >= 0 && std::isfinite(k), "imaginary part of a relative index", k, "must be at least 0");
+  require(k >= 0 && std::isfinite(k), "imaginary part of a relative index", k,
+          "must be at least 0");
   require(std::abs(relative_index) <= 1e3, "modulus of a relative index", std::abs(relative_index),
           "must be at most 1000");
   for (const double x : size_parameters)
@@ -179,10 +207,10 @@ void MieBlock::compute(std::span<const double> size_parameters, std::complex<dou
     for (int i = 0; i < lanes; ++i)  // the last one fills the block
       spheres.size_parameter[i] = size_parameters[std::min(half * lanes + i, memory.count - 1)];
     const int terms = spheres.terms();
-    legendre_coefficients(spheres, plan.inverse, memory.legendre.data(), memory.efficiencies + half * lanes,
-                          memory.instructions);
-    plan.conversion.convert(terms, memory.legendre.data(), memory.chebyshev.data(), memory.work.data(),
-                            memory.instructions);
+    legendre_coefficients(spheres, plan.inverse, memory.legendre.data(),
+                          memory.efficiencies + half * lanes, memory.instructions);
+    plan.conversion.convert(terms, memory.legendre.data(), memory.chebyshev.data(),
+                            memory.work.data(), memory.instructions);
     memory.grid->sum(terms, memory.chebyshev.data(), memory.work.data(), memory.grid_values(), half,
                      memory.instructions);
   }
@@ -197,17 +225,21 @@ void MieBlock::matrix(std::size_t first, std::size_t count, std::span<float> mat
   assert(memory.grid && first + count <= memory.angles->size());
   assert(matrix.size() == memory.count * mie_block_elements * count);
   (memory.instructions == Instructions::avx512 ? interpolate_avx512 : interpolate_avx2)(
-      memory.grid->first_rows().subspan(first, count), memory.grid->weights().subspan(first * taps, count * taps),
-      memory.grid_values(), memory.count, matrix.data());
+      memory.grid->first_rows().subspan(first, count),
+      memory.grid->weights().subspan(first * taps, count * taps), memory.grid_values(),
+      memory.count, matrix.data());
 }
 
-void mie_block(const MieAngles& angles, std::span<const double> size_parameters, std::complex<double> relative_index,
-               std::span<float> matrix, std::span<SphereEfficiencies> efficiencies, Instructions instructions) {
+void mie_block(const MieAngles& angles, std::span<const double> size_parameters,
+               std::complex<double> relative_index, std::span<float> matrix,
+               std::span<SphereEfficiencies> efficiencies, Instructions instructions) {
   const std::size_t row = mie_block_elements * angles.size();
-  assert(matrix.size() == size_parameters.size() * row && efficiencies.size() == size_parameters.size());
+  assert(matrix.size() == size_parameters.size() * row &&
+         efficiencies.size() == size_parameters.size());
   MieBlock block(angles, instructions);
   for (std::size_t start = 0; start < size_parameters.size(); start += mie_block_radii) {
-    const std::size_t count = std::min<std::size_t>(mie_block_radii, size_parameters.size() - start);
+    const std::size_t count =
+        std::min<std::size_t>(mie_block_radii, size_parameters.size() - start);
     block.compute(size_parameters.subspan(start, count), relative_index);
     block.matrix(0, angles.size(), matrix.subspan(start * row, count * row));
     std::copy_n(block.efficiencies().begin(), count, efficiencies.begin() + start);

@@ -1,10 +1,11 @@
 #pragma once
 // Scattering matrices of many spheres at many angles, fast: what tables of droplets are made from.
 //
-// The Lorenz-Mie series of a sphere, with N ~ x terms, is a polynomial of degree N in cos(theta). Instead of adding
-// N terms at every angle (Wiscombe 1980), its coefficients are turned into those of a cosine series, the series is summed
-// on a uniform grid by a fast Fourier transform, and the angles asked for are interpolated from the grid, a
-// fixed number of points each. So the work grows as N log N + angles, not as N x angles. In detail: see the source.
+// The Lorenz-Mie series of a sphere, with N ~ x terms, is a polynomial of degree N in cos(theta).
+// Instead of adding N terms at every angle (Wiscombe 1980), its coefficients are turned into those
+// of a cosine series, the series is summed on a uniform grid by a fast Fourier transform, and the
+// angles asked for are interpolated from the grid, a fixed number of points each. So the work grows
+// as N log N + angles, not as N x angles. In detail: see the source.
 
 #include <complex>
 #include <cstddef>
@@ -16,20 +17,21 @@
 
 namespace arcus::phase {
 
-/// Spheres that are computed together. Calls are fastest with multiples of this many, in order of size: a block
-/// costs what its largest sphere costs.
+/// Spheres that are computed together. Calls are fastest with multiples of this many, in order of
+/// size: a block costs what its largest sphere costs.
 inline constexpr int mie_block_radii = 16;
 
 /// Elements of the scattering matrix in the order of mie_block's result.
 inline constexpr int mie_block_elements = 4;
 
-/// The scattering angles of a table, and what can be prepared for them. Immutable: threads can share one.
+/// The scattering angles of a table, and what can be prepared for them. Immutable: threads can
+/// share one.
 class MieAngles {
  public:
-  /// scattering_angles_rad: 0 ... pi, in any order, at least one; neighbours in memory are best neighbours in angle.
-  /// largest_size_parameter: of all spheres that will be asked for, at most 1e5.
-  /// Takes about 1 us per angle, and memory of about 700 bytes per angle and 200 per unit of size parameter.
-  /// Throws bad_input for values outside these ranges.
+  /// scattering_angles_rad: 0 ... pi, in any order, at least one; neighbours in memory are best
+  /// neighbours in angle. largest_size_parameter: of all spheres that will be asked for, at most
+  /// 1e5. Takes about 1 us per angle, and memory of about 700 bytes per angle and 200 per unit of
+  /// size parameter. Throws bad_input for values outside these ranges.
   MieAngles(std::span<const double> scattering_angles_rad, double largest_size_parameter);
   ~MieAngles();
   MieAngles(MieAngles&&) noexcept;
@@ -45,9 +47,10 @@ class MieAngles {
   std::unique_ptr<const Plan> plan_;
 };
 
-/// Up to mie_block_radii spheres of one material at one wavelength: computed at once, then asked for their matrices, a
-/// run of angles at a time, so that who averages over sizes can do so while the numbers are in the cache. Holds the
-/// memory it works in, of which about 1.2 kB times size parameter are touched, for reuse: one object for each thread.
+/// Up to mie_block_radii spheres of one material at one wavelength: computed at once, then asked
+/// for their matrices, a run of angles at a time, so that who averages over sizes can do so while
+/// the numbers are in the cache. Holds the memory it works in, of which about 1.2 kB times size
+/// parameter are touched, for reuse: one object for each thread.
 class MieBlock {
  public:
   /// `angles` must outlive the block.
@@ -56,9 +59,9 @@ class MieBlock {
   MieBlock(MieBlock&&) noexcept;
   MieBlock& operator=(MieBlock&&) noexcept;
 
-  /// size_parameters: x = 2 pi r / wavelength, 1e-3 ... angles.largest_size_parameter(), one to mie_block_radii.
-  /// relative_index: m = n + ik as for mie_sphere; |m| <= 1000.
-  /// Replaces the spheres of the call before. Throws bad_input for values outside these ranges.
+  /// size_parameters: x = 2 pi r / wavelength, 1e-3 ... angles.largest_size_parameter(), one to
+  /// mie_block_radii. relative_index: m = n + ik as for mie_sphere; |m| <= 1000. Replaces the
+  /// spheres of the call before. Throws bad_input for values outside these ranges.
   void compute(std::span<const double> size_parameters, std::complex<double> relative_index);
 
   /// Of the spheres in the order of their size parameters.
@@ -75,17 +78,19 @@ class MieBlock {
   std::unique_ptr<Memory> memory_;
 };
 
-/// Scattering matrices and efficiencies of any number of spheres of one material at one wavelength, in blocks of
-/// mie_block_radii from the start of the list, best in order of size. Arguments as for MieBlock.
-/// matrix: [radius][element][angle], angle fastest: size_parameters.size() x mie_block_elements x angles.size() numbers.
-/// efficiencies: [radius].
+/// Scattering matrices and efficiencies of any number of spheres of one material at one wavelength,
+/// in blocks of mie_block_radii from the start of the list, best in order of size. Arguments as for
+/// MieBlock. matrix: [radius][element][angle], angle fastest: size_parameters.size() x
+/// mie_block_elements x angles.size() numbers. efficiencies: [radius].
 ///
-/// Accuracy against mie_sphere: efficiencies 1e-9, relative; matrix 5e-6 of the largest |S1|^2 and |S2|^2 within half an
-/// oscillation, 90 degrees/x, of the angle, 1e-6 up to x = 1e4.
-/// Can be called from many threads at once. The last bits of a sphere's numbers depend on its neighbours in the
-/// block: who splits a list among threads splits at multiples of mie_block_radii, and gets the same bits for any number.
-void mie_block(const MieAngles& angles, std::span<const double> size_parameters, std::complex<double> relative_index,
-               std::span<float> matrix, std::span<SphereEfficiencies> efficiencies,
+/// Accuracy against mie_sphere: efficiencies 1e-9, relative; matrix 5e-6 of the largest |S1|^2 and
+/// |S2|^2 within half an oscillation, 90 degrees/x, of the angle, 1e-6 up to x = 1e4. Can be called
+/// from many threads at once. The last bits of a sphere's numbers depend on its neighbours in the
+/// block: who splits a list among threads splits at multiples of mie_block_radii, and gets the same
+/// bits for any number.
+void mie_block(const MieAngles& angles, std::span<const double> size_parameters,
+               std::complex<double> relative_index, std::span<float> matrix,
+               std::span<SphereEfficiencies> efficiencies,
                Instructions instructions = best_instructions());
 
 }  // namespace arcus::phase

@@ -1,4 +1,5 @@
-// Lorenz-Mie spheres against arbitrary precision, published tables, and limits known in closed form.
+// Lorenz-Mie spheres against arbitrary precision, published tables, and limits known in closed
+// form.
 #include "phase/particle/mie.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +19,9 @@ namespace {
 
 using Complex = std::complex<double>;
 
-Columns published(const std::string& name) { return read_columns_file(std::string(PUBLISHED_DIR) + "/" + name); }
+Columns published(const std::string& name) {
+  return read_columns_file(std::string(PUBLISHED_DIR) + "/" + name);
+}
 
 SphereEfficiencies efficiencies(double x, Complex m) { return mie_sphere(x, m, {}).efficiencies; }
 
@@ -58,8 +61,10 @@ TEST(Mie, AgreesWithArbitraryPrecision) {
     const double rounding = 2 * std::numeric_limits<double>::epsilon() * r.q_ext;
     EXPECT_NEAR(q.extinction - q.scattering, r.q_abs, 1e-8 * r.q_abs + rounding) << r.x << r.m;
     for (std::size_t i = 0; i < r.angles.size(); ++i) {
-      EXPECT_LE(std::abs(sphere.s1[i] - r.s1[i]), r.tolerance() * std::abs(r.s1[i])) << r.x << r.m << r.angles[i];
-      EXPECT_LE(std::abs(sphere.s2[i] - r.s2[i]), r.tolerance() * std::abs(r.s2[i])) << r.x << r.m << r.angles[i];
+      EXPECT_LE(std::abs(sphere.s1[i] - r.s1[i]), r.tolerance() * std::abs(r.s1[i]))
+          << r.x << r.m << r.angles[i];
+      EXPECT_LE(std::abs(sphere.s2[i] - r.s2[i]), r.tolerance() * std::abs(r.s2[i]))
+          << r.x << r.m << r.angles[i];
     }
   }
 }
@@ -86,9 +91,11 @@ TEST(Mie, AgreesWithBohrenAndHuffman1983) {
   const double forward = std::norm(sphere.s1[0]);
   for (std::size_t i = 0; i < angles.size(); ++i) {
     const Complex s1 = sphere.s1[i], s2 = sphere.s2[i], product = s2 * std::conj(s1);
-    const double s11 = (std::norm(s1) + std::norm(s2)) / 2, s12 = (std::norm(s2) - std::norm(s1)) / 2;
+    const double s11 = (std::norm(s1) + std::norm(s2)) / 2,
+                 s12 = (std::norm(s2) - std::norm(s1)) / 2;
     const auto expect_six_digits = [&](double value, double printed) {
-      EXPECT_NEAR(value, printed, 5.1e-6 * std::abs(printed) + 1e-12) << "angle " << degrees(angles[i]);
+      EXPECT_NEAR(value, printed, 5.1e-6 * std::abs(printed) + 1e-12)
+          << "angle " << degrees(angles[i]);
     };
     expect_six_digits(s11 / forward, table.named("s11")[i]);
     expect_six_digits(-s12 / s11, table.named("polarisation")[i]);
@@ -104,9 +111,12 @@ TEST(Mie, TendsToRayleighForSmallDrops) {
     const double angles[] = {0.0, 1.0, 2.5};
     const SphereAmplitudes sphere = mie_sphere(x, m, angles);
     // Corrections are of order x^2, times |m|^2; of absorption too.
-    EXPECT_NEAR(sphere.efficiencies.scattering / (8.0 / 3 * std::pow(x, 4) * std::norm(polarisability)), 1, 3e-5);
+    EXPECT_NEAR(
+        sphere.efficiencies.scattering / (8.0 / 3 * std::pow(x, 4) * std::norm(polarisability)), 1,
+        3e-5);
     const double absorption = 4 * x * polarisability.imag();
-    EXPECT_NEAR(sphere.efficiencies.extinction - sphere.efficiencies.scattering, absorption, 3e-5 * absorption);
+    EXPECT_NEAR(sphere.efficiencies.extinction - sphere.efficiencies.scattering, absorption,
+                3e-5 * absorption);
     for (int i = 0; i < 3; ++i) {
       const Complex s1 = Complex(0, -1) * std::pow(x, 3) * polarisability;
       EXPECT_LT(std::abs(sphere.s1[i] - s1), 3e-5 * std::abs(s1));
@@ -116,11 +126,13 @@ TEST(Mie, TendsToRayleighForSmallDrops) {
 }
 
 TEST(Mie, TendsToAnomalousDiffractionForNearlyMatchedIndex) {
-  // van de Hulst (1957), section 11.22: Q = 2 - 4/p sin p + 4/p^2 (1 - cos p), p = 2 x (m - 1); error of order m - 1.
+  // van de Hulst (1957), section 11.22: Q = 2 - 4/p sin p + 4/p^2 (1 - cos p), p = 2 x (m - 1);
+  // error of order m - 1.
   for (const double m_minus_1 : {1e-3, 1e-4, 1e-5}) {
     const double x = 2000, p = 2 * x * m_minus_1;
     const double expected = 2 - 4 / p * std::sin(p) + 4 / (p * p) * (1 - std::cos(p));
-    EXPECT_NEAR(efficiencies(x, 1 + m_minus_1).extinction / expected, 1, 2 * m_minus_1 + 1e-4) << m_minus_1;
+    EXPECT_NEAR(efficiencies(x, 1 + m_minus_1).extinction / expected, 1, 2 * m_minus_1 + 1e-4)
+        << m_minus_1;
   }
 }
 
@@ -137,7 +149,8 @@ TEST(Mie, ForwardAmplitudeGivesTheExtinction) {  // the optical theorem
     for (const Complex m : {Complex(1.333, 1e-9), Complex(0.8), Complex(1.5, 0.5)}) {
       const double angle[] = {0.0};
       const SphereAmplitudes sphere = mie_sphere(x, m, angle);
-      EXPECT_NEAR(4 / (x * x) * sphere.s1[0].real() / sphere.efficiencies.extinction, 1, 1e-12) << x << m;
+      EXPECT_NEAR(4 / (x * x) * sphere.s1[0].real() / sphere.efficiencies.extinction, 1, 1e-12)
+          << x << m;
       EXPECT_EQ(sphere.s1[0], sphere.s2[0]);
     }
 }
@@ -146,7 +159,8 @@ TEST(Mie, BackwardAmplitudeGivesTheBackscatter) {
   for (const double x : {0.3, 300.0, 5000.0}) {
     const double angle[] = {pi};
     const SphereAmplitudes sphere = mie_sphere(x, {1.333, 1e-9}, angle);
-    EXPECT_NEAR(4 / (x * x) * std::norm(sphere.s1[0]) / sphere.efficiencies.backscatter, 1, 1e-9) << x;
+    EXPECT_NEAR(4 / (x * x) * std::norm(sphere.s1[0]) / sphere.efficiencies.backscatter, 1, 1e-9)
+        << x;
     EXPECT_LT(std::abs(sphere.s1[0] + sphere.s2[0]), 1e-9 * std::abs(sphere.s1[0])) << x;
   }
 }
@@ -169,14 +183,17 @@ TEST(Mie, AmplitudesIntegrateToScatteringAndAsymmetry) {
 }
 
 TEST(Mie, ExtinctionTendsToTwiceTheShadow) {
-  // Nussenzveig & Wiscombe (1980): Q_ext = 2 + 1.992386 x^(-2/3) + O(1/x) once the ripples are absorbed.
+  // Nussenzveig & Wiscombe (1980): Q_ext = 2 + 1.992386 x^(-2/3) + O(1/x) once the ripples are
+  // absorbed.
   for (const double x : {1e3, 1e4, 1e5})
-    EXPECT_NEAR(efficiencies(x, {1.5, 0.1}).extinction, 2 + 1.992386 * std::pow(x, -2.0 / 3), 2 / x) << x;
+    EXPECT_NEAR(efficiencies(x, {1.5, 0.1}).extinction, 2 + 1.992386 * std::pow(x, -2.0 / 3), 2 / x)
+        << x;
 }
 
 TEST(Mie, ReproducesWaterDropsAt550Nanometres) {
   // Radius [um] and g, as in clouds of that effective radius; n = 1.3347.
-  for (const auto& [radius_um, g] : {std::pair(20.0, 0.870), std::pair(100.0, 0.882), std::pair(500.0, 0.884)}) {
+  for (const auto& [radius_um, g] :
+       {std::pair(20.0, 0.870), std::pair(100.0, 0.882), std::pair(500.0, 0.884)}) {
     const double x = 2 * pi * radius_um / 0.55;
     double extinction = 0, asymmetry = 0, scattering = 0;
     const int count = 40;  // over one size in ten, as a distribution would
@@ -207,7 +224,8 @@ TEST(Mie, ScatteringNeverExceedsExtinction) {
 TEST(Mie, StaysFiniteForHugeAbsorptionAndExtremeSizes) {
   const double angles[] = {0.0, 1e-5, 1.0, pi};
   for (const double x : {1e-20, 1e-3, 1.0, 5e4})
-    for (const Complex m : {Complex(0.05, 8.0), Complex(10, 10), Complex(1e-3, 1e-3), Complex(1.3, 100.0)}) {
+    for (const Complex m :
+         {Complex(0.05, 8.0), Complex(10, 10), Complex(1e-3, 1e-3), Complex(1.3, 100.0)}) {
       const SphereAmplitudes sphere = mie_sphere(x, m, angles);
       for (int i = 0; i < 4; ++i) {
         EXPECT_TRUE(std::isfinite(std::abs(sphere.s1[i]))) << x << m;
@@ -232,10 +250,13 @@ TEST(Mie, AnglesDontInfluenceOneAnother) {
 TEST(Mie, RefusesWhatIsNoSphere) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
-  for (const double x : {0.0, -1.0, nan, infinity, 1e9}) EXPECT_THROW(mie_sphere(x, 1.33, {}), Error) << x;
-  for (const Complex m : {Complex(0), Complex(-1.3), Complex(1.3, -1e-9), Complex(nan), Complex(1.3, nan), Complex(1.3, infinity)})
+  for (const double x : {0.0, -1.0, nan, infinity, 1e9})
+    EXPECT_THROW(mie_sphere(x, 1.33, {}), Error) << x;
+  for (const Complex m : {Complex(0), Complex(-1.3), Complex(1.3, -1e-9), Complex(nan),
+                          Complex(1.3, nan), Complex(1.3, infinity)})
     EXPECT_THROW(mie_sphere(1, m, {}), Error) << m;
-  for (const double angle : {-0.1, 3.2, nan}) EXPECT_THROW(mie_sphere(1, 1.33, std::span(&angle, 1)), Error) << angle;
+  for (const double angle : {-0.1, 3.2, nan})
+    EXPECT_THROW(mie_sphere(1, 1.33, std::span(&angle, 1)), Error) << angle;
 }
 
 }  // namespace
