@@ -10,6 +10,7 @@
 #include "phase/base/error.h"
 #include "phase/base/frame.h"
 #include "phase/settings/number_text.h"
+#include "src/analysis/rings.h"
 #include "src/scene/picture_metadata.h"
 
 namespace arcus::render {
@@ -77,32 +78,6 @@ class Lattice {
   int n_;
 };
 
-/// Position angle in [0, 360) of a direction about a centre; see ProfileSettings.
-class PositionAngle {
- public:
-  explicit PositionAngle(const Vec3& centre) {
-    if (std::hypot(centre.x, centre.y) < 1e-9) {
-      up_ = Vec3(0, 1, 0);
-      right_ = Vec3(1, 0, 0);
-      return;
-    }
-    right_ = normalize(cross(centre, Vec3(0, 0, 1)));
-    up_ = cross(right_, centre);
-  }
-  double operator()(const Vec3& direction) const {
-    const double angle = degrees(std::atan2(dot(direction, right_), dot(direction, up_)));
-    return angle < 0 ? angle + 360 : angle;
-  }
-
- private:
-  Vec3 up_, right_;
-};
-
-double modulo_360(double angle_deg) {
-  const double rest = std::fmod(angle_deg, 360);
-  return rest < 0 ? rest + 360 : rest;
-}
-
 /// Typical angle between neighbouring pixels: the root of the solid angle of a pixel in the middle
 /// of the picture.
 double pixel_angle_deg(const Camera& camera, const PixelBox& box) {
@@ -150,10 +125,6 @@ struct ChannelPlan {
       variance.push_back(image.channel("variance." + name));
     }
   }
-  bool has_variance() const {
-    return std::any_of(variance.begin(), variance.end(),
-                       [](const auto& v) { return v.has_value(); });
-  }
 };
 
 /// Sums over a bin.
@@ -184,45 +155,9 @@ struct BinSums {
   }
 };
 
-/// Which bin a direction belongs to.
-class Rings {
- public:
-  Rings(const ProfileSettings& settings, const Vec3& centre, double bin_deg)
-      : centre_(centre),
-        position_angle_(centre),
-        from_deg_(settings.from_deg),
-        to_deg_(settings.to_deg),
-        bin_deg_(bin_deg),
-        sector_from_deg_(modulo_360(settings.sector_from_deg)),
-        sector_width_deg_(modulo_360(settings.sector_to_deg - settings.sector_from_deg)) {
-    const double bins = std::ceil((to_deg_ - from_deg_) / bin_deg - 1e-9);
-    if (bins > 1e6)
-      throw bad_input("profile", "bins of " + number_text(bin_deg) + " degrees",
-                      "at most a million bins expected");
-    count_ = static_cast<std::size_t>(bins);
-  }
-  std::size_t count() const { return count_; }
-  bool is_sector() const { return sector_width_deg_ > 0; }
-  double middle_deg(std::size_t bin) const {
-    return from_deg_ + (static_cast<double>(bin) + 0.5) * bin_deg_;
-  }
-  std::optional<std::size_t> bin_of(const Vec3& direction) const {
-    const double angle_deg = degrees(angle_between_rad(direction, centre_));
-    if (angle_deg < from_deg_ || angle_deg >= to_deg_) return std::nullopt;
-    if (is_sector() &&
-        modulo_360(position_angle_(direction) - sector_from_deg_) > sector_width_deg_)
-      return std::nullopt;
-    return std::min(static_cast<std::size_t>((angle_deg - from_deg_) / bin_deg_), count_ - 1);
-  }
-
- private:
-  Vec3 centre_;
-  PositionAngle position_angle_;
-  double from_deg_, to_deg_, bin_deg_, sector_from_deg_, sector_width_deg_;
-  std::size_t count_ = 0;
-};
-
-/// Divides every pixel into n x n squares and adds its values to the bins they lie in.
+/// Divides every pixel into n x n squares and adds its values to the bins they lie in. A pixel that
+/// is only partly on the picture (at the edge of a fisheye's circle) also holds the black beside
+/// it, and is left out.
 std::vector<BinSums> summed(const Image& image, const ChannelPlan& plan, const Camera& camera,
                             const Rings& rings, int n) {
   const PixelBox& box = image.box();
@@ -239,16 +174,19 @@ std::vector<BinSums> summed(const Image& image, const ChannelPlan& plan, const C
                        [&](auto c) { return std::isfinite(values[c]); }))
         continue;
       shares.clear();
+      bool is_whole = true;
       for (std::size_t j = 0; j < static_cast<std::size_t>(n); ++j) {
         for (int i = 0; i < n; ++i) {
           const auto column = static_cast<std::size_t>(x * n + i);
           const auto &a = lines[j][column], &b = lines[j][column + 1];
           const auto &c = lines[j + 1][column], &d = lines[j + 1][column + 1];
-          if (!a || !b || !c || !d) continue;
-          const auto bin = rings.bin_of(normalize(*a + *b + *c + *d));
+          is_whole = is_whole && a && b && c && d;
+          if (!is_whole) continue;
+          const auto bin = rings.ring_of(normalize(*a + *b + *c + *d));
           if (bin) add_share(shares, *bin, 0.5 * length(cross(*d - *a, *c - *b)), 1.0 / (n * n));
         }
       }
+      if (!is_whole) continue;
       for (const PixelShare& share : shares) sums[share.bin].add(share, values, plan);
     }
   }
@@ -272,13 +210,6 @@ Profile measure_profile(const Image& image, const ProfileSettings& settings,
   if (camera_settings->type == "orthographic")
     throw bad_input(where, "an orthographic camera",
                     "pixels that look in different directions expected");
-  if (!(settings.from_deg < settings.to_deg) || settings.bin_deg < 0 ||
-      !std::isfinite(settings.bin_deg))
-    throw bad_input("profile",
-                    "angles from " + number_text(settings.from_deg) + " to " +
-                        number_text(settings.to_deg) + " in bins of " +
-                        number_text(settings.bin_deg),
-                    "an ascending range and a positive width expected");
   const auto camera = make_camera(*camera_settings);
   const Centre centre = centre_of(image, settings.around, where);
   const double pixel_deg = pixel_angle_deg(*camera, image.box());
@@ -288,15 +219,15 @@ Profile measure_profile(const Image& image, const ProfileSettings& settings,
   profile.around = centre.words;
   profile.centre = centre.direction;
   profile.scattering = centre.scattering;
-  profile.bin_deg = settings.bin_deg > 0 ? settings.bin_deg : round_number_near(pixel_deg);
-  profile.error_source =
-      plan.has_variance() ? Profile::ErrorSource::variance : Profile::ErrorSource::scatter;
-  const Rings rings(settings, centre.direction, profile.bin_deg);
+  profile.bin_deg = settings.bin_deg != 0 ? settings.bin_deg : round_number_near(pixel_deg);
+  const Rings rings(centre.direction, settings.from_deg, settings.to_deg, profile.bin_deg,
+                    settings.sector_from_deg, settings.sector_to_deg);
   const int n = std::clamp(static_cast<int>(std::ceil(2 * pixel_deg / profile.bin_deg)), 2, 16);
   const std::vector<BinSums> sums = summed(image, plan, *camera, rings, n);
 
-  for (const std::size_t c : plan.value)
-    profile.channels.push_back({image.channel_names()[c], {}, {}});
+  for (std::size_t k = 0; k < plan.value.size(); ++k)
+    profile.channels.push_back(
+        {image.channel_names()[plan.value[k]], {}, {}, plan.variance[k].has_value()});
   for (std::size_t b = 0; b < rings.count(); ++b) {
     const BinSums& bin = sums[b];
     if (!(bin.weight > 0)) continue;
@@ -319,14 +250,15 @@ Profile measure_profile(const Image& image, const ProfileSettings& settings,
 }
 
 std::string csv_of(const Profile& profile, std::string_view picture_name) {
-  std::string text = "# mean radiance [W m-2 sr-1 nm-1] against the angle from " + profile.around +
-                     "\n# picture: " + std::string(picture_name) + "\n# bins of " +
-                     number_text(profile.bin_deg) +
-                     " degrees, named by their middle; standard errors from " +
-                     (profile.error_source == Profile::ErrorSource::variance
-                          ? "the picture's variance channels"
-                          : "the scatter of the pixels in a bin") +
-                     "\n";
+  std::string known;
+  for (const auto& c : profile.channels)
+    if (c.error_is_from_variance) known += (known.empty() ? "" : ", ") + c.name;
+  std::string text =
+      "# mean radiance [W m-2 sr-1 nm-1] against the angle from " + profile.around +
+      "\n# picture: " + std::string(picture_name) + "\n# bins of " + number_text(profile.bin_deg) +
+      " degrees, named by their middle\n# standard errors: " +
+      (known.empty() ? "" : known + " from the picture's variance channels, others ") +
+      "from the scatter of the pixels in a bin\n";
   const bool has_scattering = profile.scattering != Profile::Scattering::none;
   text += has_scattering ? "angle_deg,scattering_angle_deg,solid_angle_sr,pixels"
                          : "angle_deg,solid_angle_sr,pixels";

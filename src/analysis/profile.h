@@ -14,8 +14,8 @@ namespace arcus::render {
 struct ProfileSettings {
   /// sun | antisolar | zenith, or "AZIMUTH,ELEVATION" in degrees.
   std::string around = "antisolar";
-  double bin_deg =
-      0;  ///< width of a bin; 0: about the angle of a pixel, 1, 2 or 5 times a power of ten
+  /// Width of a bin; 0: about the angle of a pixel, as 1, 2 or 5 times a power of ten.
+  double bin_deg = 0;
   double from_deg = 0;  ///< angles below are left out
   double to_deg = 180;  ///< angles above are left out
   /// Only directions whose position angle about the centre is between these, counted through
@@ -30,7 +30,10 @@ struct ProfileSettings {
 struct ProfileChannel {
   std::string name;
   std::vector<double> mean;            ///< over the solid angle of the bin that is on the picture
-  std::vector<double> standard_error;  ///< of that mean; see Profile::error_source
+  std::vector<double> standard_error;  ///< of that mean
+  /// The standard error is from the picture's channel variance.<name>; otherwise from the scatter
+  /// of the pixels in a bin, which counts real differences along a ring as noise.
+  bool error_is_from_variance = false;
 };
 
 struct Profile {
@@ -40,9 +43,6 @@ struct Profile {
   /// How the scattering angle follows from the angle of the profile: angle (about the sun), 180 -
   /// angle (about the antisolar point), or not at all.
   enum class Scattering { none, angle, supplement } scattering = Scattering::none;
-  /// variance: from the channels variance.*; scatter: from the scatter of the pixels in a bin,
-  /// which counts real differences along a ring as noise.
-  enum class ErrorSource { variance, scatter } error_source = ErrorSource::scatter;
   std::vector<double> angle_deg;         ///< centres of the bins that have pixels, ascending
   std::vector<double> solid_angle_sr;    ///< of each that is on the picture
   std::vector<double> pixels;            ///< number of pixels in each, parts counted as parts
@@ -52,9 +52,10 @@ struct Profile {
 };
 
 /// Measures a picture. `where` names it in messages. Pixels are divided into squares no larger than
-/// half a bin, so a ring is found to a small part of a pixel. Pixels with a value that is not
-/// finite are left out. Throws bad_input: metadata missing, an orthographic camera (all pixels look
-/// the same way), a point that is no direction, no pixel in the range.
+/// half a bin (but not into more than 16 x 16), so a ring is found to a small part of a pixel.
+/// Pixels with a value that is not finite, or only partly within a fisheye's circle, are left out.
+/// Throws bad_input: metadata missing, an orthographic camera (all pixels look the same way), a
+/// point that is no direction, no pixel in the range.
 Profile measure_profile(const Image& image, const ProfileSettings& settings,
                         std::string_view where);
 
