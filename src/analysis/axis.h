@@ -13,8 +13,8 @@ struct Axis {
   std::string title;  ///< with its unit, as in "scattering angle [°]"
   bool is_logarithmic = false;
   std::optional<double> low = {}, high = {};  ///< ends; without them: around the data
-  double most_decades =
-      12;  ///< logarithmic without `low`: data more decades below the largest do not widen the axis
+  /// Logarithmic without `low`: data more decades below the largest do not widen the axis.
+  double most_decades = 12;
 };
 
 struct Tick {

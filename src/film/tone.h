@@ -33,8 +33,8 @@ struct DisplayPicture {
 
 struct ToneSettings {
   double exposure_ev = 0;
-  double reference_radiance =
-      1;  ///< shown as a bright white at exposure 0 [unit of the picture]; above 0
+  /// Shown as a bright white at exposure 0 [unit of the picture]; above 0.
+  double reference_radiance = 1;
 };
 
 /// Steps 2 and 3: linear display values in [0, 1] of a scaled colour. Not finite: black.
