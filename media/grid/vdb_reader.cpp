@@ -84,7 +84,8 @@ class VdbReader::Implementation : public openvdb::io::Archive {
     std::memcpy(&number, magic, sizeof number);
     if (number != openvdb::OPENVDB_MAGIC) throw not_vdb();
     stream_.seekg(0);
-    openvdb::io::setStreamMetadataPtr(stream_, std::make_shared<openvdb::io::StreamMetadata>());
+    auto tags = std::make_shared<openvdb::io::StreamMetadata>();  // versions and compression, for the readers below
+    openvdb::io::setStreamMetadataPtr(stream_, tags);
     readHeader(stream_);
     openvdb::io::setVersion(stream_, libraryVersion(), fileVersion());
     openvdb::io::setDataCompression(stream_, compression());
