@@ -14,31 +14,42 @@ using Tables = CosineGrid::Tables;
 // Largest degree that a grid serves, as a share of its points.
 constexpr double band = 2.0 / 3;
 
-// Kaiser & Bessel's bell of `taps` grid steps, for frequencies up to band/2 per step: I0(beta
-// sqrt(1 - (2 u/taps)^2)). beta puts the first frequency that aliases, 1 - band/2, on the edge of
-// its main lobe.
-const double beta = pi * taps * (1 - band / 2);
-
-// Modified Bessel function I0 by its series.
-double bessel_i0(double y) {
-  double sum = 1, term = 1;
-  for (int k = 1; term > 1e-17 * sum; ++k) {
-    term *= y * y / (4.0 * k * k);
-    sum += term;
+// Kaiser & Bessel's bell over `taps` grid steps, I0(beta sqrt(1 - (2 u/taps)^2)) / I0(beta), for
+// frequencies up to band/2 per step.
+class Bell {
+ public:
+  Bell() {
+    // I0(y) = sum of (y^2/4)^k / k!^2; as a polynomial in 1 - (2 u/taps)^2.
+    double sum = 0, term = 1;
+    for (int k = 0; k < degree; ++k) {
+      coefficient_[k] = term;
+      sum += term;
+      term *= beta * beta / (4.0 * (k + 1) * (k + 1));
+    }
+    for (double& coefficient : coefficient_) coefficient /= sum;
+    centre_ = sum;
   }
-  return sum;
-}
 
-double bell(double u) {
-  const double t = 2 * u / taps;
-  return std::abs(t) >= 1 ? 0 : bessel_i0(beta * std::sqrt(1 - t * t)) / bessel_i0(beta);
-}
+  double operator()(double u) const {
+    const double s = 1 - 4 * u * u / (taps * taps);
+    if (s <= 0) return 0;
+    double sum = 0;
+    for (int k = degree - 1; k >= 0; --k) sum = sum * s + coefficient_[k];
+    return sum;
+  }
 
-// Its Fourier transform at a frequency per grid step, |frequency| <= band/2.
-double bell_transform(double frequency) {
-  const double w = pi * taps * frequency, root = std::sqrt(beta * beta - w * w);
-  return taps * std::sinh(root) / root / bessel_i0(beta);
-}
+  // Its Fourier transform at a frequency per step, |frequency| <= band/2.
+  double transform(double frequency) const {
+    const double w = pi * taps * frequency, root = std::sqrt(beta * beta - w * w);
+    return taps * std::sinh(root) / root / centre_;
+  }
+
+ private:
+  // Puts the first frequency that aliases, 1 - band/2, on the edge of the transform's main lobe.
+  static constexpr double beta = pi * taps * (1 - band / 2);
+  static constexpr int degree = 48;  // leaves 1e-17
+  double coefficient_[degree], centre_;
+};
 
 // The radices of the passes of the transform, from blocks of all points downward.
 std::vector<int> radices(int points) {
@@ -54,9 +65,9 @@ std::vector<int> radices(int points) {
 
 // Where output k of the transform lies: the passes leave the outputs with k = r modulo the radix in
 // block r.
-int place_of(int k, int points) {
+int place_of(int k, int points, const std::vector<int>& radices) {
   int place = 0, block = points;
-  for (const int radix : radices(points)) {
+  for (const int radix : radices) {
     block /= radix;
     place += k % radix * block;
     k /= radix;
@@ -239,14 +250,15 @@ int CosineGrid::points_for(int degree) {
 }
 
 CosineGrid::CosineGrid(int points, std::span<const double> angles_rad) : points_(points) {
+  const Bell bell;
+  const std::vector<int> passes = radices(points);
   tables_.points = points;
   for (int k = 0; k < points * band; ++k)
-    tables_.scale.push_back((k == 0 ? 1 : 2) / pi / bell_transform(0.5 * k / points));
-  for (int k = 0; k < points; ++k) {
-    tables_.half_turn.push_back(std::polar(0.5, pi * k / (2.0 * points)));
-    tables_.turn.push_back(std::polar(1.0, 2 * pi * k / points));
-    const int g = k;
-    tables_.place.push_back(place_of(g % 2 ? points - 1 - g / 2 : g / 2, points));
+    tables_.scale.push_back((k == 0 ? 1 : 2) / pi / bell.transform(0.5 * k / points));
+  for (int i = 0; i < points; ++i) {
+    tables_.half_turn.push_back(std::polar(0.5, pi * i / (2.0 * points)));
+    tables_.turn.push_back(std::polar(1.0, 2 * pi * i / points));
+    tables_.place.push_back(place_of(i % 2 ? points - 1 - i / 2 : i / 2, points, passes));
   }
   for (const double angle : angles_rad) {
     const double position = angle * points / pi - 0.5;

@@ -5,8 +5,8 @@
 // With coefficients divided by the Fourier transform of a narrow bell (Kaiser & Bessel's) before
 // they are summed on a grid of at least 1.5 points per term, a weighted sum over the few grid
 // points under the bell gives the function anywhere between: the nonuniform transform of A. Dutt
-// and V. Rokhlin, SIAM J. Sci. Comput. 14 (1993) 1368-1393, with the bell of J. A. Fessler and B.
-// P. Sutton, IEEE Trans. Signal Process. 51 (2003) 560-574. Its error is local: 1e-7 of the
+// and V. Rokhlin, SIAM J. Sci. Comput. 14 (1993) 1368-1393, with the bell of J. A. Fessler and
+// B. P. Sutton, IEEE Trans. Signal Process. 51 (2003) 560-574. Its error is local: some 1e-7 of the
 // function's largest value within a few grid points, so that a forward peak doesn't spill into the
 // dark.
 
@@ -35,12 +35,11 @@ class CosineGrid {
   int points() const { return points_; }
 
   /// Two complex series of eight spheres onto the grid.
-  /// series: [j][4][lanes] of degree <= points/1.5 - 1, as LegendreToChebyshev gives them (b_j
-  /// times pi/2, or pi for
-  ///   j = 0): real and imaginary part of the first, of the second.
-  /// work: room for 2 points quantities of eight spheres.
+  /// series: [j][4][lanes] of degree <= points/1.5 - 1, real and imaginary part of the first and of
+  ///   the second, as LegendreToChebyshev gives them: b_j times pi/2, or pi for j = 0.
+  /// work: room for 2 x points quantities of eight spheres.
   /// grid: [points + taps][4][2][lanes], of grid_size; `half` (0 or 1) says which eight of sixteen
-  /// spheres are written.
+  ///   spheres are written.
   void sum(int degree, const double* series, double* work, float* grid, int half,
            Instructions instructions) const;
 

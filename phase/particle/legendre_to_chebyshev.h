@@ -47,10 +47,10 @@ class LegendreToChebyshev {
   static std::size_t series_size(int degree);
   static std::size_t scratch_size(int degree);
 
-  /// legendre: [n][width][lanes], of series_size; what lies beyond degree is overwritten with
-  /// zeros. chebyshev: [j][width][lanes], of series_size: times 2/pi, or 1/pi for j = 0, these are
-  /// the b_j. Relative to the largest they are right within 1e-10. What lies beyond degree is
-  /// meaningless. The arguments must not overlap.
+  /// legendre: [n][width][lanes], of series_size; zeros are written beyond degree.
+  /// chebyshev: [j][width][lanes], of series_size: times 2/pi, or 1/pi for j = 0, these are the
+  ///   b_j, right within 1e-10 of the largest. What lies beyond degree is meaningless.
+  /// scratch: of scratch_size. The three must not overlap.
   void convert(int degree, double* legendre, double* chebyshev, double* scratch,
                Instructions instructions) const;
 

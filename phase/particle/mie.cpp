@@ -18,7 +18,7 @@ namespace {
 using Long = long double;
 using Quad = __float128;
 
-// Below this |m - 1| the long type is used, which is 40 times slower. Above it, S2 at 90 degrees
+// Below this |m - 1| the long type is used, which is ten times slower. Above it, S2 at 90 degrees
 // and x = 1e3 keeps nine digits.
 constexpr double nearly_matched = 1e-3;
 

@@ -24,8 +24,9 @@ struct EightSpheres {
 };
 
 /// Legendre coefficients of S1 and S2: S(theta) = sum over k of coefficient[k] P_k(cos theta).
-/// coefficients: [terms + 1][4][lanes], the four being Re S1, Im S1, Re S2, Im S2. efficiencies:
-/// [lanes]. inverse: 1/n for n = 0 ... terms + 2 (the first is not used).
+/// coefficients: [terms + 1][4][lanes], the four being Re S1, Im S1, Re S2, Im S2.
+/// efficiencies: [lanes].
+/// inverse: 1/n for n = 0 ... terms + 2 (the first is not used).
 void legendre_coefficients(const EightSpheres& spheres, std::span<const double> inverse,
                            double* coefficients, SphereEfficiencies* efficiencies,
                            Instructions instructions);
