@@ -9,13 +9,12 @@
 #include "tools/command.h"
 #include "phase/base/version.h"
 
-namespace {
+namespace arcus::tools {
 
-int run(int argc, char** argv) {
-  using namespace arcus::tools;
+static int run(int argc, char** argv) {
   CLI::App program("Renders light in weather: rainbows, fogbows, coronas, glories and halos from clouds in OpenVDB files.",
                    "arcus");
-  program.set_version_flag("--version", std::string("arcus ") + arcus::version);
+  program.set_version_flag("--version", std::string("arcus ") + version);
   program.require_subcommand(1);
   program.get_formatter()->column_width(36);
   add_render(program);
@@ -29,13 +28,13 @@ int run(int argc, char** argv) {
     return exit_done;
   } catch (const CLI::ParseError& error) {
     const int code = program.exit(error, std::cout, std::cerr);
-    return code == 0 ? exit_done : static_cast<int>(arcus::Fault::input);
+    return code == 0 ? exit_done : static_cast<int>(Fault::input);
   } catch (const Exit& exit) {
     return exit.code;
   }
 }
 
-}  // namespace
+}  // namespace arcus::tools
 
 int main(int argc, char** argv) {
   if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) {
@@ -44,7 +43,7 @@ int main(int argc, char** argv) {
     return static_cast<int>(arcus::Fault::failed);
   }
   try {
-    return run(argc, argv);
+    return arcus::tools::run(argc, argv);
   } catch (const arcus::Error& error) {
     std::cerr << "arcus: " << error.what() << '\n';
     return static_cast<int>(error.fault());

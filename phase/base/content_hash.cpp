@@ -1,5 +1,6 @@
 #include "phase/base/content_hash.h"
 
+#define XXH_INLINE_ALL  // header only: no library to link
 #include <xxhash.h>
 
 namespace arcus {
