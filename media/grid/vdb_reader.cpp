@@ -84,8 +84,7 @@ class VdbReader::Implementation : public openvdb::io::Archive {
     std::memcpy(&number, magic, sizeof number);
     if (number != openvdb::OPENVDB_MAGIC) throw not_vdb();
     stream_.seekg(0);
-    auto tags = std::make_shared<openvdb::io::StreamMetadata>();  // versions and compression, for the readers below
-    openvdb::io::setStreamMetadataPtr(stream_, tags);
+    openvdb::io::setStreamMetadataPtr(stream_, tags_);
     readHeader(stream_);
     openvdb::io::setVersion(stream_, libraryVersion(), fileVersion());
     openvdb::io::setDataCompression(stream_, compression());
@@ -154,6 +153,8 @@ class VdbReader::Implementation : public openvdb::io::Archive {
     return grid;
   }
 
+  /// Versions and compression, for OpenVDB's readers: the stream keeps the address of this very pointer.
+  std::shared_ptr<openvdb::io::StreamMetadata> tags_ = std::make_shared<openvdb::io::StreamMetadata>();
   std::ifstream stream_;
   std::streamoff size_ = 0;
   std::vector<openvdb::io::GridDescriptor> descriptors_;
