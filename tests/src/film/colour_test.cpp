@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "phase/base/error.h"
+#include "src/light/sun.h"
 
 namespace arcus::render {
 namespace {
@@ -103,6 +104,16 @@ TEST(Colour, BradfordMatrixFromEqualEnergyToD65IsThePublishedOne) {
       for (std::size_t k = 0; k < 3; ++k) product += plain.matrix[i][k] * adaptation[k][j];
       EXPECT_NEAR(adapted.matrix[i][j], product, 3e-4);
     }
+}
+
+TEST(Colour, SunHasTheChromaticityAndIlluminanceThatItsSourceStates) {
+  const Curve irradiance = sun_irradiance(SunSettings{}, "");
+  const Xyz sun = xyz_of([&](double nm) { return irradiance(nm); });
+  const double sum = sun.x + sun.y + sun.z;
+  EXPECT_NEAR(sun.x / sum, 0.3192, 1e-4);
+  EXPECT_NEAR(sun.y / sum, 0.3288, 1e-4);
+  EXPECT_NEAR(683 * 106.857 * sun.y, 133377,
+              40);  // its wavelengths are in air, where they are 0.03 % shorter
 }
 
 TEST(Colour, BlackSunMeansEqualEnergyAndNonsenseIsRefused) {
