@@ -45,7 +45,7 @@ class Writer : public Keys {
     line(name, "[" + number_text(value.x) + ", " + number_text(value.y) + ", " + number_text(value.z) + "]");
   }
   bool only_if(bool condition, std::string_view) override { return condition; }
-  bool is_given(std::string_view) const override { return true; }
+  bool is_given(std::string_view) const override { return false; }
   [[noreturn]] void refuse(std::string_view name, std::string_view found, std::string_view expected) const override {
     throw bad_input(name, found, expected);
   }

@@ -10,6 +10,14 @@ namespace {
 /// Expected tentative collisions of a camera ray below which it is split. Above, hardly anything passes straight on.
 constexpr double most_forced_depth = 3;
 
+/// Light that has been scattered straight on by peaked phase functions arrives from around the sun. Paths that go there by
+/// chance alone are rare and bright: this share of the first few turns of a path goes there on purpose. Only of the first
+/// few, because every turn that might have and did not makes the path count 1/(1 − share) more.
+constexpr float share_to_sun = 0.1f;
+constexpr long long turns_to_sun = 8;
+/// Where surfaces send that share: about as wide as the glow around the sun in cloud and rain.
+const phase::PhaseFunction glow{phase::HenyeyGreenstein(0.95)};
+
 }  // namespace
 
 struct VolumePath::Path {
@@ -133,7 +141,16 @@ void VolumePath::scatter(Path& path, const media::Collision& collision, const Wa
     }
   }
 
-  const phase::Draw draw = function.draw(incoming, wavelengths, random);
+  const bool may_turn_to_sun = sun.is_on() && function.includes_sun_disc() && path.bounces <= turns_to_sun;
+  phase::Draw draw;
+  if (may_turn_to_sun) {
+    draw = function.draw(random.uniform() < share_to_sun ? sun.to_centre() : incoming, wavelengths, random);
+    draw.value_per_sr = function.value(incoming, draw.outgoing, wavelengths);
+    draw.density_per_sr = draw.value_per_sr * (1 - share_to_sun) +
+                          function.value(sun.to_centre(), draw.outgoing, wavelengths) * share_to_sun;
+  } else {
+    draw = function.draw(incoming, wavelengths, random);
+  }
   if (function.includes_sun_disc()) {
     path.sun_share = 0;
   } else {
@@ -150,21 +167,29 @@ void VolumePath::reflect(Path& path, const Hit& hit, const Wavelengths& waveleng
                          Spectrum& total) const {
   const Matte& material = *hit.material;
   const Sun& sun = scene_.sun;
+  const bool may_turn_to_sun = sun.is_on() && !scene_.medium->is_empty() && path.bounces <= turns_to_sun;
+  const auto density = [&](const Vec3& away) {
+    const double own = material.density_per_sr(hit.normal, away);
+    if (!may_turn_to_sun) return own;
+    return (1 - share_to_sun) * own + share_to_sun * glow.value(sun.to_centre(), away, wavelengths)[0];
+  };
   if (sun.is_on()) {
     const Vec3 to_sun = sun.draw(random.uniform_double(), random.uniform_double());
     const double value = material.value_per_sr(hit.normal, to_sun);
     if (value > 0) {
       const double cosine = dot(hit.normal, to_sun);
-      const double asked = sun.density_per_sr(to_sun), found = material.density_per_sr(hit.normal, to_sun);
       total += path.contribution(sun.radiance(to_sun, wavelengths) *
                                  sun_transmittance(hit.position_m, to_sun, wavelengths, random)) *
-               static_cast<float>(value * cosine / (asked + found));
+               static_cast<float>(value * cosine / (sun.density_per_sr(to_sun) + density(to_sun)));
     }
   }
-  const Vec3 away = material.draw(hit.normal, random.uniform_double(), random.uniform_double());
-  const double asked = sun.density_per_sr(away), found = material.density_per_sr(hit.normal, away);
-  path.sun_share = static_cast<float>(found / (asked + found));
-  path.weight *= static_cast<float>(material.albedo());
+  const bool turns_to_sun_now = may_turn_to_sun && random.uniform() < share_to_sun;
+  const Vec3 away = turns_to_sun_now
+                        ? glow.draw(sun.to_centre(), wavelengths, random).outgoing
+                        : material.draw(hit.normal, random.uniform_double(), random.uniform_double());
+  const double cosine = dot(hit.normal, away), found = density(away);
+  path.sun_share = static_cast<float>(found / (sun.density_per_sr(away) + found));
+  path.weight *= cosine > 0 ? static_cast<float>(material.value_per_sr(hit.normal, away) * cosine / found) : 0.f;
   path.ray = media::Ray{hit.position_m, away};
 }
 

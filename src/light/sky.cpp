@@ -4,13 +4,28 @@ namespace arcus::render {
 
 void list_keys(Keys& keys, SkySettings& sky) {
   keys.choice("type", sky.type, {"none", "constant"}, "what surrounds the scene");
-  if (keys.only_if(sky.type == "constant", "type = constant"))
-    keys.number("radiance", sky.radiance, at_least(0), "the same at every wavelength [W m-2 sr-1 nm-1]");
+  if (keys.only_if(sky.type == "constant", "type = constant")) {
+    keys.number("radiance", sky.radiance, at_least(0), "the same in all directions, at 550 nm [W m-2 sr-1 nm-1]");
+    keys.choice("spectrum", sky.spectrum, {"flat", "sun"},
+                "flat: the same at every wavelength; sun: in proportion to the sun's, as light from grey clouds");
+  }
 }
 
-Sky::Sky(const SkySettings& settings)
-    : radiance_(settings.type == "constant" ? static_cast<float>(settings.radiance) : 0.0f) {}
+Sky::Sky(const SkySettings& settings, const Curve& sun_irradiance)
+    : radiance_(settings.type == "constant" ? static_cast<float>(settings.radiance) : 0.0f),
+      is_flat_(settings.spectrum == "flat") {
+  if (is_flat_) return;
+  std::vector<double> values = sun_irradiance.y();
+  const double at_550 = sun_irradiance(550);
+  for (double& value : values) value = at_550 > 0 ? value / at_550 : 0;
+  relative_ = Curve(sun_irradiance.x(), std::move(values), "sky.spectrum");
+}
 
-Spectrum Sky::radiance(const Vec3&, const Wavelengths&) const { return Spectrum::filled(radiance_); }
+Spectrum Sky::radiance(const Vec3&, const Wavelengths& wavelengths) const {
+  if (is_flat_ || radiance_ == 0) return Spectrum::filled(radiance_);
+  Spectrum result;
+  for (int i = 0; i < wavelength_count; ++i) result[i] = radiance_ * static_cast<float>(relative_(wavelengths[i]));
+  return result;
+}
 
 }  // namespace arcus::render

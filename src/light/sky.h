@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "phase/base/curve.h"
 #include "phase/base/spectrum.h"
 #include "phase/base/vec3.h"
 #include "phase/base/wavelengths.h"
@@ -12,18 +13,22 @@ namespace arcus::render {
 
 struct SkySettings {
   std::string type = "none";  ///< none | constant
-  double radiance = 0.1;      ///< of the constant sky, at every wavelength [W m-2 sr-1 nm-1]
+  double radiance = 0.1;      ///< of the constant sky, at 550 nm and with a flat spectrum everywhere [W m-2 sr-1 nm-1]
+  std::string spectrum = "flat";  ///< flat: the same at every wavelength | sun: in proportion to the sun's
 };
 void list_keys(Keys& keys, SkySettings& sky);
 
 class Sky {
  public:
-  explicit Sky(const SkySettings& settings);
+  /// sun_irradiance: the sun's spectrum, for a sky of its colour; a sun without light at 550 nm makes that black.
+  Sky(const SkySettings& settings, const Curve& sun_irradiance);
   /// Radiance from a direction (unit, from the scene) [W m-2 sr-1 nm-1].
   Spectrum radiance(const Vec3& direction, const Wavelengths& wavelengths) const;
 
  private:
   float radiance_;
+  Curve relative_;  // to 550 nm; empty: flat
+  bool is_flat_;
 };
 
 }  // namespace arcus::render

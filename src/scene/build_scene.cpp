@@ -97,9 +97,10 @@ Scene build_scene(const SceneSettings& settings, const BuildOptions& options) {
   for (const MediumSettings& medium : settings.media) add_medium(medium, settings, options, components);
   auto medium = std::make_unique<const media::Medium>(std::move(components));
   report_depth(*medium, options);
+  const Curve irradiance = sun_irradiance(settings.sun, settings.folder);
   return Scene{.medium = std::move(medium),
-               .sun = Sun(settings.sun, sun_irradiance(settings.sun, settings.folder)),
-               .sky = Sky(settings.sky),
+               .sun = Sun(settings.sun, irradiance),
+               .sky = Sky(settings.sky, irradiance),
                .surfaces = Surfaces(settings.surfaces),
                .camera = make_camera(settings.camera)};
 }

@@ -29,7 +29,7 @@ inline Scene slab_scene(const Slab& slab, double sky_radiance = 0, double sun_sc
                         .irradiance_scale = sun_scale};
   return Scene{.medium = std::make_unique<media::Medium>(std::move(components)),
                .sun = Sun(sun, sun_irradiance(sun, "")),
-               .sky = Sky({.type = "constant", .radiance = sky_radiance}),
+               .sky = Sky({.type = "constant", .radiance = sky_radiance}, Curve({550}, {1}, "")),
                .surfaces = Surfaces({}),
                .camera = nullptr};
 }

@@ -105,7 +105,7 @@ TEST(VolumePath, WideSunIsFoundEquallyByAskingAndByChance) {
                           .spectrum = "equal_energy"};
     const Scene scene{.medium = std::make_unique<media::Medium>(components),
                       .sun = Sun(sun, sun_irradiance(sun, "")),
-                      .sky = Sky({}),
+                      .sky = Sky({}, Curve({550}, {1}, "")),
                       .surfaces = Surfaces({{"ground", {"plane", -20}, {"matte", 0.5}}}),
                       .camera = nullptr};
     const media::Ray ray{Vec3(0, 0, -15), normalize(Vec3(0.1, 0.2, 1))};
