@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Lorenz-Mie efficiencies and amplitudes in arbitrary precision: writes mie_reference.csv beside itself.
+"""Lorenz-Mie efficiencies and amplitudes in arbitrary precision: writes mie_reference.csv.
 
-The series is summed as Bohren & Huffman (1983) print it, eq. 4.53, 4.61, 4.62 and 4.74: a_n and b_n from psi_n(mx)
-itself, not from its logarithmic derivative, and pi_n, tau_n from the plain upward recurrence in cos(theta), so that it
-shares no step with the program's own evaluation. The numbers of a case are computed with two precisions and lengths
-of the series, and must agree to 25 digits. Before that, psi_n and chi_n are held against mpmath's Bessel functions.
+The series is summed as Bohren & Huffman (1983) print it, eq. 4.53, 4.61, 4.62 and 4.74: a_n and
+b_n from psi_n(mx) itself, not from ratios, and pi_n, tau_n from the plain upward recurrence in
+cos(theta), so that it shares no step with the program's own evaluation. The numbers of a case are
+computed with two precisions and lengths of the series, and must agree to 25 digits. Before that,
+psi_n and chi_n are held against mpmath's Bessel functions.
 
     python3 mie_reference.py              # needs mpmath; minutes
     python3 mie_reference.py 3 1.55 0 90  # one sphere on the screen: x, n, k, angles in degrees
@@ -20,12 +21,15 @@ import mpmath as mp
 # size parameter, n, k
 CASES = [
     # small: the limits of Rayleigh scattering and of absorption by volume
-    (1e-3, 1.333, 0.0), (1e-3, 1.333, 1e-9), (1e-3, 1.5, 1.0), (1e-3, 1.000001, 0.0), (1e-3, 0.75, 0.0),
+    (1e-3, 1.333, 0.0), (1e-3, 1.333, 1e-9), (1e-3, 1.5, 1.0), (1e-3, 1.000001, 0.0),
+    (1e-3, 0.75, 0.0),
     (1e-2, 1.33, 1e-8), (0.1, 1.5, 0.1), (0.1, 10.0, 10.0),
     # moderate, of every kind
-    (1.0, 1.5, 1.0), (1.0, 1.000001, 0.0), (1.0, 1.000001, 1e-9), (3.0, 1.55, 0.0), (5.21282, 1.55, 0.0),
-    (10.0, 1.33, 1e-5), (10.0, 0.75, 0.0), (10.0, 1.5, 1.0), (10.0, 10.0, 10.0), (25.0, 4.0, 3.0),
-    (100.0, 1.33, 0.0), (100.0, 1.333, 1e-9), (100.0, 0.75, 0.0), (100.0, 1.5, 1.0), (100.0, 0.2, 3.0),
+    (1.0, 1.5, 1.0), (1.0, 1.000001, 0.0), (1.0, 1.000001, 1e-9), (3.0, 1.55, 0.0),
+    (5.21282, 1.55, 0.0), (10.0, 1.33, 1e-5), (10.0, 0.75, 0.0), (10.0, 1.5, 1.0),
+    (10.0, 10.0, 10.0), (25.0, 4.0, 3.0),
+    (100.0, 1.33, 0.0), (100.0, 1.333, 1e-9), (100.0, 0.75, 0.0), (100.0, 1.5, 1.0),
+    (100.0, 0.2, 3.0),
     (100.0, 1.000001, 0.0), (100.0, 0.999999, 1e-7), (137.5, 1.31, 2e-9),
     # large
     (1000.0, 1.333, 1.9e-9), (1000.0, 0.75, 0.0), (1000.0, 1.5, 1.0), (1000.0, 1.000001, 0.0),
@@ -38,7 +42,7 @@ ANGLES_DEG = [0.0, 0.01, 1.0, 30.0, 90.0, 129.0, 138.0, 179.9, 180.0]
 
 
 def riccati_psi(z, terms):
-    """psi_n(z) = z j_n(z), n = 0 ... terms: downward recurrence from far beyond |z|, normalised by psi_0 or psi_1."""
+    """psi_n(z) = z j_n(z), n = 0 ... terms; downward from beyond |z|, scaled by psi_0 or psi_1."""
     size = float(abs(z))
     start = int(max(size, terms) + 30 * max(size, terms) ** (1 / 3) + 2 * mp.mp.dps + 50)
     psi = [mp.mpf(0)] * (terms + 2)
@@ -64,11 +68,11 @@ def riccati_chi(x, terms):
 def check_bessel():
     mp.mp.dps = 60
     for z, n in [(mp.mpf("0.5"), 3), (mp.mpc(40, 3), 20), (mp.mpf(40), 60), (mp.mpc(20, 35), 45)]:
-        factor = mp.sqrt(mp.pi * z / 2)
-        assert abs(riccati_psi(z, 80)[n] / (factor * mp.besselj(n + mp.mpf(1) / 2, z)) - 1) < mp.mpf(10) ** -50
+        bessel = mp.sqrt(mp.pi * z / 2) * mp.besselj(n + mp.mpf(1) / 2, z)
+        assert abs(riccati_psi(z, 80)[n] / bessel - 1) < mp.mpf(10) ** -50
     for x, n in [(mp.mpf("0.5"), 3), (mp.mpf(40), 60)]:
-        factor = mp.sqrt(mp.pi * x / 2)
-        assert abs(riccati_chi(x, 80)[n] / (-factor * mp.bessely(n + mp.mpf(1) / 2, x)) - 1) < mp.mpf(10) ** -50
+        bessel = -mp.sqrt(mp.pi * x / 2) * mp.bessely(n + mp.mpf(1) / 2, x)
+        assert abs(riccati_chi(x, 80)[n] / bessel - 1) < mp.mpf(10) ** -50
 
 
 def sphere(x, n, k, angles, digits, extra):
@@ -88,9 +92,10 @@ def sphere(x, n, k, angles, digits, extra):
         b[j] = (psi_z[j] * dpsi_x - m * psi_x[j] * dpsi_z) / (psi_z[j] * dxi - m * xi * dpsi_z)
     def power(w):
         return w.real ** 2 + w.imag ** 2
-    ext = 2 / x ** 2 * mp.fsum((2 * j + 1) * (a[j] + b[j]).real for j in range(1, terms + 1))
-    sca = 2 / x ** 2 * mp.fsum((2 * j + 1) * (power(a[j]) + power(b[j])) for j in range(1, terms + 1))
-    back = abs(mp.fsum((2 * j + 1) * (-1) ** j * (a[j] - b[j]) for j in range(1, terms + 1))) ** 2 / x ** 2
+    orders = range(1, terms + 1)
+    ext = 2 / x ** 2 * mp.fsum((2 * j + 1) * (a[j] + b[j]).real for j in orders)
+    sca = 2 / x ** 2 * mp.fsum((2 * j + 1) * (power(a[j]) + power(b[j])) for j in orders)
+    back = abs(mp.fsum((2 * j + 1) * (-1) ** j * (a[j] - b[j]) for j in orders)) ** 2 / x ** 2
     g = 4 / x ** 2 / sca * mp.fsum(
         mp.mpf(j * (j + 2)) / (j + 1) * (a[j] * mp.conj(a[j + 1]) + b[j] * mp.conj(b[j + 1])).real
         + mp.mpf(2 * j + 1) / (j * (j + 1)) * (a[j] * mp.conj(b[j])).real for j in range(1, terms))
@@ -132,16 +137,18 @@ def main():
         return
     angles = [math.radians(d) for d in ANGLES_DEG]
     with open(pathlib.Path(__file__).with_name("mie_reference.csv"), "w", encoding="ascii") as out:
-        out.write("# quantity: Lorenz-Mie efficiencies and amplitudes S1, S2 of homogeneous spheres\n")
-        out.write("# units: 1; scattering angle in radians; time factor exp(-i omega t), m = n + ik\n")
-        out.write("# source: mie_reference.py (mpmath, 100 digits), series of Bohren & Huffman 1983 eq. 4.53-4.74\n")
+        out.write("# quantity: Lorenz-Mie efficiencies and amplitudes S1, S2 of homogeneous spheres\n"
+                  "# units: 1; scattering angle in radians; time factor exp(-i omega t), m = n + ik\n"
+                  "# source: mie_reference.py (mpmath, 100 digits), "
+                  "series of Bohren & Huffman 1983 eq. 4.53-4.74\n")
         out.write("x,n,k,q_ext,q_sca,q_abs,q_back,g,angle_rad,s1_re,s1_im,s2_re,s2_im\n")
         for x, n, k in CASES:
             numbers, amplitudes = checked_sphere(x, n, k, angles)
             for angle, (s1, s2) in zip(angles, amplitudes):
                 values = [mp.nstr(v, 17) for v in (*numbers,)]
                 parts = [mp.nstr(v, 17) for v in (s1.real, s1.imag, s2.real, s2.imag)]
-                out.write(",".join([repr(x), repr(n), repr(k), *values, repr(angle), *parts]) + "\n")
+                row = [repr(x), repr(n), repr(k), *values, repr(angle), *parts]
+                out.write(",".join(row) + "\n")
             print(x, n, k, flush=True)
 
 
