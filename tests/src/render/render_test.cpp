@@ -1,0 +1,92 @@
+#include "src/render/render.h"
+
+#include <gtest/gtest.h>
+
+#include "phase/settings/toml_text.h"
+#include "src/render/picture.h"
+#include "tests/src/integrator/slab.h"
+
+namespace arcus::render {
+namespace {
+
+/// A block of haze over land, seen obliquely.
+SceneSettings small_settings() {
+  SceneSettings settings;
+  settings.camera.width_px = 37;
+  settings.camera.height_px = 21;
+  settings.camera.position_m = Vec3(0, -3, 0.5);
+  settings.render.samples_per_pixel = 5;
+  settings.film.channels = {"rgb", "xyz", "variance"};
+  return settings;
+}
+
+Scene small_scene(const SceneSettings& settings) {
+  media::Component block;
+  block.box = media::Box{Vec3(-1, -1, 0.1), Vec3(1, 1, 1)};
+  block.extinction_scale = 1.5f;
+  block.species = std::make_shared<phase::Species>(phase::PhaseFunction(phase::HenyeyGreenstein(0.7)), -1.0);
+  std::vector<media::Component> components{block};
+  const Curve irradiance = sun_irradiance(settings.sun, "");
+  return Scene{.medium = std::make_unique<media::Medium>(std::move(components)),
+               .sun = Sun(settings.sun, irradiance),
+               .sky = Sky({.type = "constant", .radiance = 0.1}, irradiance),
+               .surfaces = Surfaces({{"land", {"plane", 0}, {"matte", 0.4}}}),
+               .camera = make_camera(settings.camera)};
+}
+
+Picture picture(const SceneSettings& settings, const RunOptions& options, std::optional<PixelBox> crop = {}) {
+  return render_picture(settings, small_scene(settings), crop, options);
+}
+
+}  // namespace
+
+TEST(Render, AnyNumberOfThreadsGivesTheSameBits) {
+  const SceneSettings settings = small_settings();
+  const Picture one = picture(settings, {.threads = 1});
+  for (const int threads : {2, 3})
+    EXPECT_EQ(picture(settings, {.threads = threads}).image.values(), one.image.values()) << threads << " threads";
+  EXPECT_EQ(one.refused.count, 0u);
+  EXPECT_TRUE(one.run.is_complete);
+}
+
+TEST(Render, AnotherSeedGivesAnotherPicture) {
+  SceneSettings settings = small_settings();
+  const Picture one = picture(settings, {});
+  settings.render.seed = 2;
+  EXPECT_NE(picture(settings, {}).image.values(), one.image.values());
+}
+
+TEST(Render, CropIsThePartOfTheWhole) {
+  const SceneSettings settings = small_settings();
+  const PixelBox box{5, 3, 29, 20};
+  const Image whole = picture(settings, {}).image, part = picture(settings, {}, box).image;
+  for (int y = box.y0; y < box.y1; ++y)
+    for (int x = box.x0; x < box.x1; ++x)
+      for (std::size_t c = 0; c < whole.channel_names().size(); ++c)
+        ASSERT_EQ(part.value(x, y, c), whole.value(x, y, c)) << x << "," << y;
+}
+
+TEST(Render, StoppedRenderingKeepsWhatIsDone) {
+  SceneSettings settings = small_settings();
+  settings.render.samples_per_pixel = 1000000;
+  const Picture stopped = picture(settings, {.time_limit_s = 0.3});
+  EXPECT_FALSE(stopped.run.is_complete);
+  EXPECT_GT(stopped.run.progress.samples_done, 0);
+  const std::atomic<int> now{1};
+  const Picture none = picture(settings, {.stop_request = &now});
+  EXPECT_EQ(none.run.progress.samples_done, 0);
+  for (const float value : none.image.values()) EXPECT_EQ(value, 0);
+}
+
+TEST(Render, PictureKnowsItsMaking) {
+  const SceneSettings settings = small_settings();
+  const Image image = picture(settings, {}).image;
+  EXPECT_EQ(image.metadata.number("arcus:samples_per_pixel"), 5);
+  ASSERT_TRUE(image.metadata.text("arcus:scene"));
+  // The scene text alone makes the same scene again.
+  SceneSettings again;
+  read_toml(*image.metadata.text("arcus:scene"), "metadata", {}, [&](Keys& keys) { list_keys(keys, again); });
+  EXPECT_EQ(text_of(again), *image.metadata.text("arcus:scene"));
+}
+
+}  // namespace arcus::render
