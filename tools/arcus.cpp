@@ -39,8 +39,7 @@ static int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) {
-    std::cerr << "arcus: this build needs a processor with AVX2 and FMA (x86-64-v3); "
-                 "configure it with -DARCUS_INSTRUCTION_SET=x86-64 for older ones\n";
+    std::cerr << "arcus: needs a processor with AVX2 and FMA (x86-64-v3)\n";
     return static_cast<int>(arcus::Fault::failed);
   }
   try {

@@ -124,6 +124,12 @@ void VolumePath::scatter(Path& path, const media::Collision& collision, const Wa
   const Vec3 incoming = path.ray.direction;
   const Sun& sun = scene_.sun;
 
+  const bool may_turn_to_sun = sun.is_on() && path.bounces <= turns_to_sun;
+  const auto density = [&](const Vec3& outgoing, const Spectrum& value) {
+    if (!may_turn_to_sun) return value;
+    return value * (1 - share_to_sun) + function.value(sun.to_centre(), outgoing, wavelengths) * share_to_sun;
+  };
+
   if (sun.is_on()) {
     const Vec3 to_sun = sun.draw(random.uniform_double(), random.uniform_double());
     if (function.includes_sun_disc()) {
@@ -134,23 +140,17 @@ void VolumePath::scatter(Path& path, const media::Collision& collision, const Wa
     } else {
       const Spectrum value = function.value(incoming, to_sun, wavelengths);
       const double asked = path.density.mean() * sun.density_per_sr(to_sun);
-      const double found = (path.density * value).mean();  // value is the density of draw()
+      const double found = (path.density * density(to_sun, value)).mean();
       total += path.contribution(value * sun.radiance(to_sun, wavelengths) *
                                  sun_transmittance(collision.position_m, to_sun, wavelengths, random)) *
                static_cast<float>(path.density.mean() / (asked + found));
     }
   }
 
-  const bool may_turn_to_sun = sun.is_on() && function.includes_sun_disc() && path.bounces <= turns_to_sun;
-  phase::Draw draw;
-  if (may_turn_to_sun) {
-    draw = function.draw(random.uniform() < share_to_sun ? sun.to_centre() : incoming, wavelengths, random);
-    draw.value_per_sr = function.value(incoming, draw.outgoing, wavelengths);
-    draw.density_per_sr = draw.value_per_sr * (1 - share_to_sun) +
-                          function.value(sun.to_centre(), draw.outgoing, wavelengths) * share_to_sun;
-  } else {
-    draw = function.draw(incoming, wavelengths, random);
-  }
+  const bool turns_to_sun_now = may_turn_to_sun && random.uniform() < share_to_sun;
+  phase::Draw draw = function.draw(turns_to_sun_now ? sun.to_centre() : incoming, wavelengths, random);
+  if (turns_to_sun_now) draw.value_per_sr = function.value(incoming, draw.outgoing, wavelengths);
+  draw.density_per_sr = density(draw.outgoing, draw.value_per_sr);
   if (function.includes_sun_disc()) {
     path.sun_share = 0;
   } else {

@@ -17,25 +17,31 @@ using statistics::Moments;
 
 constexpr int tasks = 64;  // fixed, so that the numbers do not depend on the threads
 
-/// Runs sample(random) count times and gathers its values, in an order that does not depend on threads.
+/// Means of samples, gathered in rounds until the standard error is below `wanted` of the mean, or `most` rounds; in an
+/// order that does not depend on threads.
 template <class Sample>
-Moments gathered(int count, const Sample& sample) {
-  std::vector<statistics::Batches> parts(tasks, statistics::Batches(100));
-  tbb::parallel_for(0, tasks, [&](int task) {
-    for (int i = 0; i < count / tasks; ++i) {
-      Random random(statistics::test_seed(), static_cast<std::uint64_t>(task), static_cast<std::uint32_t>(i));
-      parts[static_cast<std::size_t>(task)].add(sample(random));
-    }
-  });
-  // Equal numbers of batches: the parts' means are again independent numbers of one distribution.
+Moments gathered(double wanted, int most, const Sample& sample) {
+  constexpr int batch = 1000;
   Moments moments;
-  for (const auto& part : parts) moments.add(part.means().mean());
+  for (int round = 0; round < most; ++round) {
+    std::vector<double> means(tasks);
+    tbb::parallel_for(0, tasks, [&](int task) {
+      double sum = 0;
+      for (int i = 0; i < batch; ++i) {
+        Random random(statistics::test_seed(), static_cast<std::uint64_t>(task), static_cast<std::uint32_t>(round * batch + i));
+        sum += sample(random);
+      }
+      means[static_cast<std::size_t>(task)] = sum / batch;
+    });
+    for (const double mean : means) moments.add(mean);
+    if (round >= 3 && moments.standard_error() < wanted * moments.mean()) break;
+  }
   return moments;
 }
 
-Moments radiance(const Scene& scene, double view_cosine, double azimuth_deg, int count) {
+Moments radiance(const Scene& scene, double view_cosine, double azimuth_deg) {
   const VolumePath integrator(scene, 1000000);
-  return gathered(count, [&](Random& random) {
+  return gathered(0.0013, 400, [&](Random& random) {
     const Wavelengths wavelengths = draw_wavelengths(random.uniform_double());
     const FirstNumbers first{0.5, 0.5, 0.5, random.uniform_double(), random.uniform_double()};
     return integrator.radiance(slab_ray(view_cosine, azimuth_deg), wavelengths, first, random).mean();
@@ -43,9 +49,9 @@ Moments radiance(const Scene& scene, double view_cosine, double azimuth_deg, int
 }
 
 /// Diffuse flux through a face per irradiance on the layer: view cosines with density 2μ, all azimuths.
-Moments flux(const Scene& scene, double side, double sun_cosine, int count) {
+Moments flux(const Scene& scene, double side, double sun_cosine) {
   const VolumePath integrator(scene, 1000000);
-  return gathered(count, [&](Random& random) {
+  return gathered(0.0015, 100, [&](Random& random) {
     // The few rays that look straight into the sun are drawn anew: the direct beam is known.
     media::Ray ray;
     do ray = slab_ray(side * std::sqrt(1 - random.uniform_double()), 360 * random.uniform_double());
@@ -75,8 +81,7 @@ std::vector<Row> rows(const std::string& file, double side) {
 /// The views held against the reference: one straight, one oblique, for the sun at 60°.
 bool is_chosen(const Row& row) {
   const double mu = std::fabs(row.view_cosine);
-  return row.slab.sun_zenith_deg == 60 && ((mu == 1 && row.azimuth_deg == 0) || (mu == 0.5 && row.azimuth_deg == 180) ||
-                                           (mu == 0.7 && row.azimuth_deg == 90));
+  return row.slab.sun_zenith_deg == 60 && ((mu == 1 && row.azimuth_deg == 0) || (mu == 0.5 && row.azimuth_deg == 180));
 }
 
 void compare(const std::vector<Row>& table) {
@@ -86,7 +91,7 @@ void compare(const std::vector<Row>& table) {
   for (const Row& row : table) {
     if (!is_chosen(row)) continue;
     const Scene scene = slab_scene(row.slab);
-    const Moments found = radiance(scene, row.view_cosine, row.azimuth_deg, 640000);
+    const Moments found = radiance(scene, row.view_cosine, row.azimuth_deg);
     const auto place = testing::Message() << "g " << row.slab.asymmetry << " albedo " << row.slab.albedo << " tau "
                                           << row.slab.optical_depth << " view " << row.view_cosine << " azimuth "
                                           << row.azimuth_deg << ": " << found.mean() << " +- " << found.standard_error()
@@ -107,7 +112,7 @@ TEST(Slab, WhatComesInGoesOut) {
   for (const double tau : {1.0, 5.0, 20.0}) {
     const Slab slab{.asymmetry = 0.85, .albedo = 1, .optical_depth = tau, .sun_zenith_deg = 60};
     const Scene scene = slab_scene(slab);
-    const Moments up = flux(scene, 1, 0.5, 640000), down = flux(scene, -1, 0.5, 640000);
+    const Moments up = flux(scene, 1, 0.5), down = flux(scene, -1, 0.5);
     const double error = std::hypot(up.standard_error(), down.standard_error());
     EXPECT_NEAR(up.mean() + down.mean() + std::exp(-tau / 0.5), 1, 3 * error) << "tau " << tau;
     EXPECT_LT(error, 0.005);
