@@ -30,7 +30,7 @@ endforeach()
 set(phase ${left})
 
 allow(media/space phase/base)
-allow(media/grid phase/base media/space)
+allow(media/grid phase/base phase/settings media/space)  # settings: numbers as text in messages
 allow(media/author ${phase} media/space media/grid)
 set(left media/space media/grid)
 foreach(folder majorant medium tracking)
