@@ -1,5 +1,5 @@
 #pragma once
-// A homogeneous block: a layer to check against theory, a cube of fog, a jar of spray.
+// A homogeneous block: the medium whose answers are known. Wide enough, it stands for an endless layer.
 
 #include <string>
 
@@ -10,19 +10,20 @@
 namespace arcus::media {
 
 struct BoxSettings {
-  std::string species = "box";
-  Vec3 centre_m{0, 0, 0};
-  Vec3 size_m{100, 100, 100};      ///< edges
-  double extinction_per_m = 0.01;  ///< at 550 nm
-  double optical_depth = 0;        ///< through the height; above 0: decides the extinction
-  double size_um = 0;              ///< of all particles; 0: the recipe's middle size node
-  std::string phase_file;          ///< a recipe file
-  phase::Recipe phase = phase::default_recipe("isotropic");  ///< where there is no file
+  std::string name = "cloud";       ///< of the species
+  Vec3 centre_m{0, 0, 500};
+  Vec3 size_m{1000, 1000, 1000};
+  double extinction_per_m = 0.001;  ///< at 550 nm, diffraction included
+  double optical_depth = 0;         ///< along z, at 550 nm; above 0 it decides the extinction
+  std::vector<double> voxels{8, 8, 8};  ///< along x, y and z; one number: along the shortest edge, cubes
+  double size_um = 10;              ///< of all particles
+  std::string phase_file;           ///< recipe of the phase functions: a file ...
+  phase::Recipe phase;              ///< ... or its keys
 };
 void list_keys(Keys& keys, BoxSettings& box);
 
-/// One voxel stretched over the block; with nearest interpolation the block is exact. (With linear interpolation a
-/// single voxel would be a pyramid: the scene asks for `interpolation = "nearest"`.) `folder`: where phase_file's path starts.
+/// Makes the block: its voxels fill it exactly, so that across the block the optical depth is the extinction times the
+/// edge however it is interpolated. `folder`: recipe files are relative to it. Throws bad_input.
 NewSpecies author_box(const BoxSettings& settings, const std::string& folder);
 
 }  // namespace arcus::media

@@ -5,51 +5,56 @@
 namespace arcus::media {
 namespace {
 
-std::uint32_t hash(std::int64_t x, std::int64_t y, std::int64_t z, std::uint32_t seed) {
+/// Mixes the bits of a lattice point (the finaliser of MurmurHash3, Appleby).
+std::uint64_t hash(std::uint64_t seed, std::int64_t x, std::int64_t y, std::int64_t z) {
   std::uint64_t h = seed;
   for (const std::int64_t c : {x, y, z}) {
-    h ^= static_cast<std::uint64_t>(c) + 0x9e3779b97f4a7c15u + (h << 6) + (h >> 2);
-    h *= 0xbf58476d1ce4e5b9u;
-    h ^= h >> 29;
+    h ^= static_cast<std::uint64_t>(c);
+    h *= 0xff51afd7ed558ccdu;
+    h ^= h >> 33;
+    h *= 0xc4ceb9fe1a85ec53u;
+    h ^= h >> 33;
   }
-  return static_cast<std::uint32_t>(h >> 32);
+  return h;
 }
 
-/// Perlin's twelve gradients, the middles of a cube's edges, four of them twice.
-double gradient(std::uint32_t h, double x, double y, double z) {
-  const std::uint32_t k = h & 15u;
-  const double u = k < 8 ? x : y, v = k < 4 ? y : (k == 12 || k == 14 ? x : z);
-  return ((k & 1u) ? -u : u) + ((k & 2u) ? -v : v);
+/// Dot product of an offset with one of the twelve gradients towards the edges of a cube.
+double gradient(std::uint64_t h, double x, double y, double z) {
+  const unsigned edge = static_cast<unsigned>((h >> 32) * 12 >> 32);
+  const double first = edge < 8 ? x : y, second = edge < 4 ? y : z;
+  return (edge & 1 ? -first : first) + (edge & 2 ? -second : second);
 }
 
-double faded(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
-double mixed(double a, double b, double t) { return a + t * (b - a); }
+double fade(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
+double mix(double share, double a, double b) { return a + share * (b - a); }
+
+// Standard deviation of one octave: the mean square of the gradient noise above over a cell, by quadrature.
+constexpr double standard_deviation = 0.2777;
 
 }  // namespace
 
-double gradient_noise(const Vec3& position, std::uint32_t seed) {
-  const double fx = std::floor(position.x), fy = std::floor(position.y), fz = std::floor(position.z);
+double Noise::at(const Vec3& p) const {
+  const double fx = std::floor(p.x), fy = std::floor(p.y), fz = std::floor(p.z);
   const auto ix = static_cast<std::int64_t>(fx), iy = static_cast<std::int64_t>(fy), iz = static_cast<std::int64_t>(fz);
-  const double x = position.x - fx, y = position.y - fy, z = position.z - fz;
-  const auto corner = [&](int dx, int dy, int dz) {
-    return gradient(hash(ix + dx, iy + dy, iz + dz, seed), x - dx, y - dy, z - dz);
+  const double x = p.x - fx, y = p.y - fy, z = p.z - fz;
+  const auto corner = [&](int i, int j, int k) {
+    return gradient(hash(seed_, ix + i, iy + j, iz + k), x - i, y - j, z - k);
   };
-  const double u = faded(x), v = faded(y), w = faded(z);
-  return mixed(mixed(mixed(corner(0, 0, 0), corner(1, 0, 0), u), mixed(corner(0, 1, 0), corner(1, 1, 0), u), v),
-               mixed(mixed(corner(0, 0, 1), corner(1, 0, 1), u), mixed(corner(0, 1, 1), corner(1, 1, 1), u), v), w);
+  const double u = fade(x), v = fade(y), w = fade(z);
+  return mix(u, mix(v, mix(w, corner(0, 0, 0), corner(0, 0, 1)), mix(w, corner(0, 1, 0), corner(0, 1, 1))),
+             mix(v, mix(w, corner(1, 0, 0), corner(1, 0, 1)), mix(w, corner(1, 1, 0), corner(1, 1, 1))));
 }
 
-double fractal_noise(const Vec3& position, int octaves, double gain, std::uint32_t seed) {
-  constexpr double rms_of_one = 0.28;
-  double sum = 0, strength = 1, squares = 0;
-  Vec3 p = position;
-  for (int i = 0; i < octaves; ++i) {
-    sum += strength * gradient_noise(p, seed + static_cast<std::uint32_t>(i));
-    squares += strength * strength;
-    strength *= gain;
-    p = p * 2 + Vec3(17.13, -4.71, 9.37);  // so that the lattices' zeros do not coincide
+double Noise::fractal(const Vec3& p, int octaves, double gain) const {
+  double sum = 0, squares = 0, weight = 1, frequency = 1;
+  for (int octave = 0; octave < octaves; ++octave) {
+    // Lattices shifted against each other, so that their zeros do not coincide.
+    sum += weight * at(p * frequency + Vec3(17.31, -41.77, 63.19) * octave);
+    squares += weight * weight;
+    weight *= gain;
+    frequency *= 2;
   }
-  return sum / (rms_of_one * std::sqrt(squares));
+  return sum / (standard_deviation * std::sqrt(squares));
 }
 
 }  // namespace arcus::media

@@ -1,5 +1,7 @@
 #pragma once
-// Fractal noise for clouds and rain: smooth, reproducible from a seed, the same on every machine.
+// Fractal noise, reproducible from a seed: gradient noise (Perlin, "Improving Noise", SIGGRAPH 2002) on a cubic lattice, with
+// gradients drawn by a hash instead of a table, so that it does not repeat. Uses only sums, products and whole numbers: equal on
+// every machine.
 
 #include <cstdint>
 
@@ -7,12 +9,20 @@
 
 namespace arcus::media {
 
-/// Gradient noise on the integer lattice (Perlin, "Improving Noise", SIGGRAPH 2002, with hashed gradients): smooth, about
-/// −1 to 1, mean 0, root mean square about 0.28, features of size 1. Uses additions and multiplications only.
-double gradient_noise(const Vec3& position, std::uint32_t seed);
+class Noise {
+ public:
+  explicit Noise(std::uint64_t seed) : seed_(seed) {}
 
-/// Sum of `octaves` ≥ 1 of gradient noise, each of half the size and `gain` times the strength of the one before, scaled
-/// to a root mean square of about 1.
-double fractal_noise(const Vec3& position, int octaves, double gain, std::uint32_t seed);
+  /// One octave: features of size 1, mean 0, within [-1, 1], zero at whole coordinates, twice differentiable.
+  double at(const Vec3& p) const;
+
+  /// Octaves of features 1, 1/2, 1/4, ... with weights 1, gain, gain², ..., scaled so that their standard deviation is
+  /// about 1 whatever the number of octaves. octaves ≥ 1; gain in (0, 1], 0.5 to 0.63 for turbulence (k^(-5/3): 2^(-1/3) ≈ 0.79 of amplitude
+  /// is the energy spectrum of a scalar; smaller gains look smoother).
+  double fractal(const Vec3& p, int octaves, double gain) const;
+
+ private:
+  std::uint64_t seed_;
+};
 
 }  // namespace arcus::media

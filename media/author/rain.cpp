@@ -8,6 +8,7 @@
 #include "media/author/noise.h"
 #include "phase/base/error.h"
 #include "phase/base/frame.h"
+#include "phase/base/units.h"
 #include "phase/population/sizes.h"
 #include "phase/settings/number_text.h"
 #include "phase/settings/toml_text.h"
@@ -16,188 +17,224 @@
 namespace arcus::media {
 namespace {
 
-constexpr double water_kg_per_m3 = 998.2;
-/// Rain below this share of the core's is left out.
-constexpr double least_share = 0.003;
-/// Fall speed of the drops that carry most of the rain (Atlas, Srivastava and Sekhon 1973, D = 2 mm) [m/s].
-constexpr double fall_m_per_s = 6.5;
-constexpr int edge = SparseGrid::brick_edge;
-
-struct Drops {
-  double extinction_per_m = 0, radius_um = 0, water_kg_per_m3 = 0;
-};
-
-Drops drops_of(double rain_mm_per_hour, const RainSettings& settings) {
-  constexpr double n0_per_m4 = 8000 * 1e3;
-  const double slope_per_m = 1e3 * phase::marshall_palmer_slope_per_mm(rain_mm_per_hour);
-  Drops drops;
-  drops.water_kg_per_m3 = pi * water_kg_per_m3 * n0_per_m4 / std::pow(slope_per_m, 4);
-  drops.radius_um = settings.drops == "gamma"
-                        ? settings.effective_radius_um * std::pow(rain_mm_per_hour / settings.rain_mm_per_hour, 0.21)
-                        : phase::marshall_palmer_effective_radius_um(rain_mm_per_hour);
-  drops.extinction_per_m = 1.5 * drops.water_kg_per_m3 / (water_kg_per_m3 * m_from_um(drops.radius_um));
-  return drops;
-}
+constexpr double water_kg_per_m3 = 1000;
+constexpr double most_voxels = 2e9;
+// Rain below this share of the core's rate is left out: it stops a thousandth of the light at most.
+constexpr double least_share = 1e-3;
 
 double smooth_step(double t) {
   t = std::clamp(t, 0.0, 1.0);
   return t * t * (3 - 2 * t);
 }
 
-/// Rain rate at a place, over that in the core.
-class RainField {
+/// The shower as a function of position.
+class Shower {
  public:
-  explicit RainField(const RainSettings& settings)
-      : settings_(settings), wind_(direction_of(settings.wind_azimuth_deg, 0)) {}
-
-  double share(const Vec3& position_m) const {
-    const double height_m = position_m.z - settings_.centre_m.z;
-    if (height_m < 0 || height_m > settings_.cloud_base_m) return 0;
-    // Where drops that are here now left the cloud: wind that grows linearly with height carries them along a parabola.
-    const double below_m = settings_.cloud_base_m - height_m;
-    const double mean_wind = settings_.wind_m_per_s * (1 + height_m / settings_.cloud_base_m) / 2;
-    const Vec3 start = position_m - wind_ * (mean_wind * below_m / fall_m_per_s) +
-                       wind_ * (settings_.wind_m_per_s / 2 * settings_.cloud_base_m / fall_m_per_s);
-    const double x = (start.x - settings_.centre_m.x) / (settings_.width_m / 2);
-    const double y = (start.y - settings_.centre_m.y) / (settings_.depth_m / 2);
-    const auto seed = static_cast<std::uint32_t>(settings_.seed);
-    // The border is ragged: noise moves it by some of its own width.
-    const Vec3 plan(start.x / settings_.streak_size_m, start.y / settings_.streak_size_m, 0.5);
-    const double ragged = 0.35 * settings_.edge * std::min(1.0, settings_.streaks) * fractal_noise(plan * 0.7, 3, 0.5, seed + 100);
-    double share = smooth_step((1 - std::sqrt(x * x + y * y) + ragged) / settings_.edge);
-    if (share <= 0) return 0;
-    if (settings_.streaks > 0)  // log-normal, mean 1
-      share *= std::exp(settings_.streaks * fractal_noise(plan, 4, 0.6, seed + 200) - 0.5 * settings_.streaks * settings_.streaks);
-    if (settings_.turbulence > 0) {
-      const double t = settings_.turbulence;
-      share *= std::exp(t * fractal_noise(position_m / settings_.turbulence_size_m, 4, 0.6, seed + 300) - 0.5 * t * t);
-    }
-    share *= std::exp(-settings_.evaporation_per_km * 1e-3 * below_m);
-    // Below the base the rain begins within a few voxels, softly and at uneven heights.
-    const double ceiling_m = (0.04 + 0.04 * fractal_noise(plan * 0.5, 3, 0.5, seed + 400)) * settings_.cloud_base_m;
-    return share * smooth_step((below_m - ceiling_m) / (0.12 * settings_.cloud_base_m));
+  explicit Shower(const RainSettings& settings)
+      : s_(settings),
+        wind_(direction_of(settings.wind_azimuth_deg, 0)),
+        streaks_(static_cast<std::uint64_t>(settings.seed) * 3 + 1),
+        turbulence_(static_cast<std::uint64_t>(settings.seed) * 3 + 2) {
+    fall_m_per_s_ = s_.fall_speed_m_per_s > 0 ? s_.fall_speed_m_per_s
+                                              : fall_speed_m_per_s(drops(s_.rain_mm_per_hour).effective_radius_um);
   }
 
-  /// Furthest that wind carries drops from above the middle of their path [m].
-  Vec3 reach_m() const {
-    const double most = settings_.wind_m_per_s / 2 * settings_.cloud_base_m / fall_m_per_s;
-    return Vec3(std::fabs(wind_.x) * most, std::fabs(wind_.y) * most, 0);
+  RainDrops drops(double rain) const {
+    if (s_.drops == "marshall_palmer") return marshall_palmer_drops(rain);
+    return narrow_drops(rain, s_.radius_um * std::pow(rain / s_.rain_mm_per_hour, s_.radius_exponent));
+  }
+
+  /// How far drops have drifted along the wind at a depth below the base [m]: the wind grows evenly from 0 at the base, so
+  /// streaks are parabolas.
+  double drift_m(double depth_m) const {
+    return 0.5 * s_.wind_m_per_s / fall_m_per_s_ * depth_m * depth_m / s_.cloud_base_m;
+  }
+
+  /// Rain rate at a position relative to the foot's middle [mm/h].
+  double rain_mm_per_hour(const Vec3& p) const {
+    const double depth = s_.cloud_base_m - p.z;
+    if (depth < 0 || p.z < 0) return 0;
+    // Where these drops left the cloud, along and across the wind.
+    const double along = p.x * wind_.x + p.y * wind_.y - drift_m(depth), across = p.x * wind_.y - p.y * wind_.x;
+    const double from_middle = std::hypot(along / s_.stretch, across);
+    const double profile = smooth_step((s_.core_radius_m + s_.edge_width_m - from_middle) / s_.edge_width_m);
+    if (profile == 0) return 0;
+    // Streaks are the places in the cloud that rain more. They live for a while: the pattern changes with height, slowly.
+    const double streak = streaks_.fractal(Vec3(along, across, 0.12 * depth) * (1 / s_.streak_width_m), 2, 0.5);
+    const double eddy = turbulence_.fractal(p * (1 / s_.turbulence_scale_m), static_cast<int>(s_.octaves), 0.6);
+    // Log-normal factors with mean 1: never negative, and the rain that falls in all stays the same.
+    const double texture = std::exp(s_.streak_contrast * streak - 0.5 * s_.streak_contrast * s_.streak_contrast +
+                                    s_.turbulence * eddy - 0.5 * s_.turbulence * s_.turbulence);
+    const double onset = s_.base_fade_m > 0 ? smooth_step(depth / s_.base_fade_m) : 1;
+    return evaporated(s_.rain_mm_per_hour * profile * texture, depth) * onset;
   }
 
  private:
-  const RainSettings& settings_;
+  /// Rain evaporates at a rate in proportion to ∫ N(D) D dD = N₀/Λ² ~ R^0.42 (diffusion from drops of Marshall and Palmer's
+  /// distribution), so R^0.58 falls evenly with depth: light rain is gone first.
+  double evaporated(double rain, double depth) const {
+    if (s_.virga_m <= 0) return rain;
+    constexpr double power = 1 - 2 * 0.21;
+    const double left = std::pow(rain, power) - depth / s_.virga_m;
+    return left > 0 ? std::pow(left, 1 / power) : 0;
+  }
+
+  const RainSettings& s_;
   Vec3 wind_;
+  Noise streaks_, turbulence_;
+  double fall_m_per_s_ = 1;
 };
 
-std::string recipe_of(const RainSettings& settings, double smallest_um, double largest_um) {
-  phase::Recipe recipe = phase::default_recipe(settings.drops == "gamma" ? "mie" : "rain");
-  if (settings.drops == "gamma") {
-    recipe.distribution.type = "gamma";
-    recipe.distribution.variance = settings.variance;
-  }
-  // Bows change slowly with the drops' size; narrow populations still want neighbours within a fifth of a width.
-  const double ratio = settings.drops == "gamma" ? 1.1 : 1.2;
-  const auto count = static_cast<std::size_t>(std::ceil(std::log(largest_um / smallest_um) / std::log(ratio))) + 1;
+std::string recipe_text(const RainSettings& settings, double smallest_um, double largest_um) {
+  const bool is_narrow = settings.drops == "narrow";
+  phase::Recipe recipe = phase::default_recipe("rain");
+  recipe.distribution.type = is_narrow ? "gamma" : "marshall_palmer";
+  recipe.distribution.variance = settings.variance;
+  recipe.distribution.rain_mm_per_hour = 0;
+  const double per_octave = settings.nodes_per_octave > 0 ? settings.nodes_per_octave : is_narrow ? 7 : 3;
+  const double octaves = std::log2(largest_um / smallest_um);
+  const int nodes = 1 + static_cast<int>(std::ceil(octaves * per_octave - 1e-9));
   recipe.size_um.clear();
-  for (std::size_t i = 0; i < count; ++i)
-    recipe.size_um.push_back(count == 1 ? largest_um
-                                        : smallest_um * std::pow(largest_um / smallest_um, static_cast<double>(i) / static_cast<double>(count - 1)));
-  // Three digits name a drop well enough, and equal showers share their tables.
-  for (double& size : recipe.size_um) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", size);
-    size = std::stod(text);
+  for (int i = 0; i < nodes; ++i) {
+    const double size = nodes > 1 ? smallest_um * std::exp2(octaves * i / (nodes - 1)) : smallest_um;
+    recipe.size_um.push_back(std::stod(number_text(static_cast<float>(size))));
   }
-  recipe.size_um.erase(std::unique(recipe.size_um.begin(), recipe.size_um.end()), recipe.size_um.end());
   return text_of(recipe);
 }
 
 }  // namespace
 
 void list_keys(Keys& keys, RainSettings& rain) {
-  keys.text("species", rain.species, "name of the species in the file");
-  keys.number("rain_mm_per_hour", rain.rain_mm_per_hour, {.low = 0.01, .high = 500}, "rain rate in the core, under the cloud");
-  keys.vector3("centre_m", rain.centre_m, "middle of the shaft at the ground; its z is the ground");
-  keys.number("width_m", rain.width_m, above(0), "of the shaft, west to east");
-  keys.number("depth_m", rain.depth_m, above(0), "of the shaft, south to north");
-  keys.number("edge", rain.edge, above_up_to(0, 1), "share of the half widths over which the rain fades out");
-  keys.number("cloud_base_m", rain.cloud_base_m, above(0), "above the ground: where the rain begins");
-  keys.number("voxel_m", rain.voxel_m, above(0), "edge of a voxel");
-  keys.number("wind_m_per_s", rain.wind_m_per_s, between(0, 100), "at the cloud base, none at the ground: streaks bend");
-  keys.number("wind_azimuth_deg", rain.wind_azimuth_deg, any(), "compass azimuth to which the wind blows");
-  keys.number("evaporation_per_km", rain.evaporation_per_km, between(0, 100),
-              "virga: the rain rate falls by e^-evaporation in each kilometre below the base");
-  keys.number("streaks", rain.streaks, between(0, 3), "strength of fall streaks; 0: none");
-  keys.number("streak_size_m", rain.streak_size_m, above(0), "size of fall streaks");
-  keys.number("turbulence", rain.turbulence, between(0, 3), "strength of the turbulent density; 0: none");
-  keys.number("turbulence_size_m", rain.turbulence_size_m, above(0), "size of the largest eddies");
-  keys.choice("drops", rain.drops, {"marshall_palmer", "gamma"},
-              "marshall_palmer: as broad as in most rain; gamma: narrower, with brighter supernumeraries");
-  if (keys.only_if(rain.drops == "gamma", "drops = gamma")) {
-    keys.number("effective_radius_um", rain.effective_radius_um, between(10, 1500),
-                "of the drops in the core; goes with the rain rate to the power 0.21");
-    keys.number("variance", rain.variance, {.low = 0.001, .high = 0.4}, "effective variance of the drops");
+  keys.text("name", rain.name, "of the species: grids NAME.extinction and NAME.size");
+  keys.vector3("centre_m", rain.centre_m, "middle of the shaft on the ground, were there no wind");
+  keys.number("core_radius_m", rain.core_radius_m, at_least(0), "full rain rate within, across the wind");
+  keys.number("edge_width_m", rain.edge_width_m, above(0), "outside of the core the rain rate falls smoothly to nothing");
+  keys.number("stretch", rain.stretch, above(0), "length along the wind over width across it");
+  keys.number("cloud_base_m", rain.cloud_base_m, above(0), "height above the ground at which rain begins");
+  keys.number("voxel_m", rain.voxel_m, above(0), "edge of the voxels");
+  keys.number("rain_mm_per_hour", rain.rain_mm_per_hour, above_up_to(0, 500), "mean rain rate in the core at cloud base");
+  keys.number("virga_m", rain.virga_m, at_least(0),
+              "depth below cloud base at which rain of 1 mm/h has evaporated; 0: nothing evaporates");
+  keys.number("base_fade_m", rain.base_fade_m, at_least(0), "rain sets in over this depth below the cloud base");
+  keys.number("wind_m_per_s", rain.wind_m_per_s, at_least(0),
+              "wind at the ground relative to the cloud; grows evenly with depth below the base");
+  keys.number("wind_azimuth_deg", rain.wind_azimuth_deg, any(), "compass direction towards which it blows");
+  keys.number("fall_speed_m_per_s", rain.fall_speed_m_per_s, at_least(0), "of the drops; 0: that of the core's drops");
+  keys.number("streak_contrast", rain.streak_contrast, between(0, 2), "fall streaks: standard deviation of ln R");
+  keys.number("streak_width_m", rain.streak_width_m, above(0), "width of the streaks");
+  keys.number("turbulence", rain.turbulence, between(0, 2), "fluctuations in all directions: standard deviation of ln R");
+  keys.number("turbulence_scale_m", rain.turbulence_scale_m, above(0), "size of the largest fluctuations");
+  keys.integer("octaves", rain.octaves, between(1, 12), "each halves the size of the fluctuations");
+  keys.integer("seed", rain.seed, between(0, 9e15), "another seed, another shower");
+  keys.choice("drops", rain.drops, {"marshall_palmer", "narrow"},
+              "size distribution: natural rain, or drops of nearly one size, which show supernumerary bows");
+  if (keys.only_if(rain.drops == "narrow", "drops = narrow")) {
+    keys.number("radius_um", rain.radius_um, between(40, 3000), "effective radius at the core's rain rate");
+    keys.number("radius_exponent", rain.radius_exponent, between(0, 1),
+                "the effective radius goes with the rain rate to this power");
+    keys.number("variance", rain.variance, between(1e-4, 0.3), "effective variance of the sizes at one place");
   }
-  keys.integer("seed", rain.seed, between(0, 4e9), "another seed, another shower of the same kind");
+  keys.number("nodes_per_octave", rain.nodes_per_octave, between(0, 50),
+              "phase functions for each doubling of the radius; 0: 3 for marshall_palmer, 7 for narrow");
+}
+
+double fall_speed_m_per_s(double radius_um) {
+  const double r = std::min(m_from_um(radius_um), 3e-3), diameter_mm = 2e3 * r;
+  if (r < 40e-6) return 1.19e8 * r * r * (8e3 / (1.19e8 * 40e-6));  // scaled by 1.7 so as to meet the next one
+  if (diameter_mm < 0.6) return 8e3 * r;
+  return 9.65 - 10.3 * std::exp(-0.6 * diameter_mm);
+}
+
+RainDrops marshall_palmer_drops(double rain_mm_per_hour) {
+  constexpr double n0_per_m3_mm = 8000;
+  const double slope_per_mm = phase::marshall_palmer_slope_per_mm(rain_mm_per_hour);
+  return {pi * n0_per_m3_mm / (slope_per_mm * slope_per_mm * slope_per_mm) * 1e-6, um_from_mm(1.5 / slope_per_mm)};
+}
+
+RainDrops narrow_drops(double rain_mm_per_hour, double effective_radius_um) {
+  const double flux_kg_per_m2_s = rain_mm_per_hour / 3600;  // 1 mm of water is 1 kg/m²
+  const double water_kg_per_m3_of_air = flux_kg_per_m2_s / fall_speed_m_per_s(effective_radius_um);
+  return {1.5 * water_kg_per_m3_of_air / (water_kg_per_m3 * m_from_um(effective_radius_um)), effective_radius_um};
 }
 
 AuthoredRain author_rain(const RainSettings& settings) {
-  const RainField field(settings);
-  const Vec3 half = Vec3(settings.width_m / 2, settings.depth_m / 2, 0) * (1 + settings.edge) + field.reach_m();
-  const auto voxels = [&](double metres) { return static_cast<int>(std::ceil(metres / settings.voxel_m / edge)); };
-  if (half.x * half.y * 4 * settings.cloud_base_m / std::pow(settings.voxel_m, 3) > 2e9)
-    throw bad_input("voxel_m", number_text(settings.voxel_m), "a shaft of at most 2e9 voxels expected",
-                    "Make voxels larger or the shaft smaller");
-  const int nx = 2 * voxels(half.x), ny = 2 * voxels(half.y), nz = voxels(settings.cloud_base_m);
+  const Shower shower(settings);
+  const double reach = settings.core_radius_m + settings.edge_width_m, h = settings.voxel_m;
+  const Vec3 wind = direction_of(settings.wind_azimuth_deg, 0);
+  Box box;  // all that the shaft and its drift can reach, relative to the foot's middle
+  for (const double drift : {0.0, shower.drift_m(settings.cloud_base_m)}) {
+    const double wide = reach * std::max(1.0, settings.stretch);
+    box.include(Vec3(wind.x * drift - wide, wind.y * drift - wide, 0));
+    box.include(Vec3(wind.x * drift + wide, wind.y * drift + wide, settings.cloud_base_m));
+  }
+  const Vec3 voxels = box.size() * (1 / h);
+  if (voxels.x * voxels.y * voxels.z > most_voxels)
+    throw bad_input("voxel_m", number_text(h), "at most 2e9 voxels must fill the shower's box of " +
+                        number_text(std::round(box.size().x)) + " x " + number_text(std::round(box.size().y)) + " x " +
+                        number_text(std::round(box.size().z)) + " m");
 
   AuthoredRain result;
-  NewSpecies& species = result.species;
-  species.name = settings.species;
-  species.world_from_index = Affine::translation(settings.centre_m) * Affine::scaling(Vec3(settings.voxel_m));
-
-  struct Part {
+  // Voxel (i, j, k) stands in the middle of its cube; the ground is a face of the lowest ones.
+  result.species.world_from_index =
+      Affine::translation(settings.centre_m) * Affine::scaling(Vec3(h)) * Affine::translation(Vec3(0.5));
+  result.species.name = settings.name;
+  constexpr int edge = SparseGrid::brick_edge;
+  const auto brick_of = [&](double metres) { return static_cast<int>(std::floor(metres / h / edge)); };
+  struct Work {
+    Coord origin;
     NewBrick extinction, size;
-    double water_kg = 0, smallest = 1e9, largest = 0, most = 0;
+    double water_kg = 0, largest_rain = 0;
+    bool is_empty = true;
   };
-  std::vector<std::unique_ptr<Part>> parts(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny) * static_cast<std::size_t>(nz));
-  const double voxel_m3 = std::pow(settings.voxel_m, 3);
-  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
-    const int bz = static_cast<int>(i % static_cast<std::size_t>(nz));
-    const int by = static_cast<int>(i / static_cast<std::size_t>(nz)) % ny;
-    const int bx = static_cast<int>(i / static_cast<std::size_t>(nz) / static_cast<std::size_t>(ny));
-    const Coord origin{(bx - nx / 2) * edge, (by - ny / 2) * edge, bz * edge};
-    auto part = std::make_unique<Part>();
-    part->extinction.origin = part->size.origin = origin;
-    part->extinction.values.fill(0);
-    part->size.values.fill(0);
-    for (int v = 0; v < SparseGrid::brick_voxels; ++v) {
-      const Vec3 index(origin.x + (v >> 6), origin.y + (v >> 3 & 7), origin.z + (v & 7));
-      const double share = field.share(species.world_from_index.point(index));
-      if (share < least_share) continue;
-      const Drops drops = drops_of(share * settings.rain_mm_per_hour, settings);
-      part->extinction.values[static_cast<std::size_t>(v)] = static_cast<float>(drops.extinction_per_m);
-      part->size.values[static_cast<std::size_t>(v)] = static_cast<float>(drops.radius_um);
-      part->water_kg += drops.water_kg_per_m3 * voxel_m3;
-      part->smallest = std::min(part->smallest, drops.radius_um);
-      part->largest = std::max(part->largest, drops.radius_um);
-      part->most = std::max(part->most, drops.extinction_per_m);
+  std::vector<Coord> origins;
+  for (int x = brick_of(box.low.x); x <= brick_of(box.high.x); ++x)
+    for (int y = brick_of(box.low.y); y <= brick_of(box.high.y); ++y)
+      for (int z = 0; z <= brick_of(box.high.z); ++z) origins.push_back({x * edge, y * edge, z * edge});
+
+  // In batches, so that empty bricks take no memory for long.
+  constexpr std::size_t batch = 4096;
+  for (std::size_t first = 0; first < origins.size(); first += batch) {
+    std::vector<Work> works(std::min(batch, origins.size() - first));
+    tbb::parallel_for(std::size_t{0}, works.size(), [&](std::size_t b) {
+      Work& work = works[b];
+      work.origin = origins[first + b];
+      work.extinction = {work.origin, {}};
+      work.size = {work.origin, {}};
+      for (int i = 0; i < SparseGrid::brick_voxels; ++i) {
+        const Vec3 index(work.origin.x + (i >> 6), work.origin.y + (i >> 3 & 7), work.origin.z + (i & 7));
+        const double rain = shower.rain_mm_per_hour((index + Vec3(0.5)) * h);
+        if (rain < least_share * settings.rain_mm_per_hour) continue;
+        const RainDrops drops = shower.drops(rain);
+        const auto at = static_cast<std::size_t>(i);
+        work.extinction.values[at] = static_cast<float>(drops.extinction_per_m);
+        work.size.values[at] = static_cast<float>(drops.effective_radius_um);
+        work.water_kg += drops.extinction_per_m * m_from_um(drops.effective_radius_um) * water_kg_per_m3 / 1.5 * h * h * h;
+        work.largest_rain = std::max(work.largest_rain, rain);
+        work.is_empty = false;
+      }
+    });
+    for (Work& work : works) {
+      if (work.is_empty) continue;
+      result.water_kg += work.water_kg;
+      result.largest_rain_mm_per_hour = std::max(result.largest_rain_mm_per_hour, work.largest_rain);
+      result.species.extinction.push_back(work.extinction);
+      result.species.size.push_back(work.size);
     }
-    if (part->largest > 0) parts[i] = std::move(part);
-  });
-  result.smallest_radius_um = 1e9;
-  for (const auto& part : parts) {
-    if (!part) continue;
-    species.extinction.push_back(part->extinction);
-    species.size.push_back(part->size);
-    result.water_kg += part->water_kg;
-    result.smallest_radius_um = std::min(result.smallest_radius_um, part->smallest);
-    result.largest_radius_um = std::max(result.largest_radius_um, part->largest);
-    result.largest_extinction_per_m = std::max(result.largest_extinction_per_m, part->most);
   }
-  if (species.extinction.empty())
-    throw bad_input("voxel_m", number_text(settings.voxel_m), "voxels smaller than the shaft expected");
-  species.recipe = recipe_of(settings, result.smallest_radius_um, result.largest_radius_um);
-  species.phase_id = phase::recipe_id(phase::recipe_from_text(species.recipe, "recipe"));
+  if (result.species.extinction.empty())
+    throw bad_input("rain", "no voxel with rain", "at least one expected",
+                    "It evaporates at once (virga_m), or the voxels are larger than the shower");
+  result.smallest_radius_um = std::numeric_limits<float>::max();
+  for (std::size_t b = 0; b < result.species.size.size(); ++b)
+    for (std::size_t i = 0; i < SparseGrid::brick_voxels; ++i) {
+      const float radius = result.species.size[b].values[i];
+      if (radius == 0) continue;
+      result.smallest_radius_um = std::min(result.smallest_radius_um, radius);
+      result.largest_radius_um = std::max(result.largest_radius_um, radius);
+      result.largest_extinction_per_m = std::max(result.largest_extinction_per_m, result.species.extinction[b].values[i]);
+    }
+  result.species.recipe = recipe_text(settings, result.smallest_radius_um, result.largest_radius_um);
+  result.species.phase_id = phase::recipe_id(phase::recipe_from_text(result.species.recipe, "recipe of the rain"));
   return result;
 }
 

@@ -83,7 +83,7 @@ class SparseGridBuilder {
   std::uint32_t add_brick(const Coord& voxel);
   /// A brick with the same value everywhere.
   void set_constant_brick(const Coord& voxel, Voxel value);
-  /// A whole block of 64³ voxels with the same value everywhere.
+  /// A whole block of 64³ voxels with the same value everywhere; nothing else may be said about voxels of that block.
   void set_constant_block(const Coord& voxel, Voxel value);
 
   /// To be called once, after all bricks are known.

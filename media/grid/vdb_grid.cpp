@@ -57,13 +57,17 @@ std::vector<std::pair<std::string, std::string>> VdbGrid::metadata() const {
 
 bool VdbGrid::is_affine() const { return base(grid_).transform().isLinear(); }
 
+Affine VdbGrid::affine() const {
+  const openvdb::Mat4R m = base(grid_).transform().baseMap()->getAffineMap()->getMat4();
+  const auto row = [&](int i) { return Vec3(m(i, 0), m(i, 1), m(i, 2)); };  // OpenVDB multiplies vectors from the left
+  return {row(0), row(1), row(2), row(3)};
+}
+
 Affine VdbGrid::world_from_index() const {
   if (!is_affine())
     throw bad_input(where_, "a frustum transform", "voxels of one size and shape expected",
                     "Resample the grid to an ordinary transform");
-  const openvdb::Mat4R m = base(grid_).transform().baseMap()->getAffineMap()->getMat4();
-  const auto row = [&](int i) { return Vec3(m(i, 0), m(i, 1), m(i, 2)); };  // OpenVDB multiplies vectors from the left
-  const Affine map{row(0), row(1), row(2), row(3)};
+  const Affine map = affine();
   const double volume = map.determinant(), scale = length(map.x) * length(map.y) * length(map.z);
   if (!std::isfinite(volume) || !std::isfinite(length(map.origin)) || !(std::fabs(volume) > 1e-12 * scale))
     throw bad_input(where_, "a transform that makes it flat or endless", "one that can be inverted expected");

@@ -19,6 +19,8 @@ struct SizeField {
   float elsewhere = 0;
 };
 
+struct GridFacts;
+
 class VdbGrid {
  public:
   /// `grid` points to an openvdb::GridBase; `where` names it in messages.
@@ -41,6 +43,9 @@ class VdbGrid {
   /// Throws bad_input unless the transform is affine and can be inverted.
   Affine world_from_index() const;
 
+  /// Everything about it but label and type; of a grid that has been read as a whole.
+  GridFacts facts() const;
+
   // For float and double grids that have been read as a whole:
 
   /// The renderer's form. Voxels that are not active count as 0. `sizes` joins sizes to it. Throws bad_input: a background that
@@ -50,6 +55,9 @@ class VdbGrid {
   SizeField size_field() const;
 
  private:
+  /// Only where is_affine().
+  Affine affine() const;
+
   std::shared_ptr<void> grid_;
   std::string where_;
 };
