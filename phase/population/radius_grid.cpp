@@ -12,7 +12,7 @@ namespace {
 
 constexpr double neglected_share = 1e-5;  // of the geometric cross-section
 /// Beyond this size parameter steps no longer grow: sphere and light that passes it interfere with a period of about one.
-constexpr double even_from = 250;
+constexpr double even_from = 100;
 /// Least density of radii between and beside the bulk of the populations, relative to that within.
 constexpr double least_density = 0.05;
 constexpr double smallest_step = 0.002;      // in the size parameter

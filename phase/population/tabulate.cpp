@@ -22,6 +22,8 @@ namespace {
 /// other wavelengths may be a little sharper.
 constexpr double tolerance = 0.0015, spacing_share = 0.85;
 constexpr std::size_t most_pilots = 6;
+/// Populations narrower than this keep the interference between rays of different orders that large drops leave out.
+constexpr double least_width_for_rays = 0.01;
 
 /// Counts what is done and tells it, one thread at a time.
 class Work {
@@ -86,7 +88,8 @@ std::vector<double> angle_nodes(const Population& p, const std::vector<Sizes>& s
                                 const std::vector<double>& fixed_deg, Work& work) {
   const std::vector<double> candidates = candidate_angles_deg(detail_of(p, sizes));
   const std::vector<double> pilots = pilots_of(p.wavelength_nm);
-  const SphereAverage average(sizes, candidates, p.wavelength_nm.front(), p.radii, may_use_rays);
+  // Half the spheres: the curves are asked for their shape only.
+  const SphereAverage average(sizes, candidates, p.wavelength_nm.front(), std::max(p.radii / 2, 2LL), may_use_rays);
   std::vector<std::vector<double>> nodes(pilots.size());
   tbb::parallel_for(std::size_t{0}, pilots.size(), [&](std::size_t i) {
     const PopulationMeans means = average.means(pilots[i], p.index_at(pilots[i]));
@@ -169,7 +172,8 @@ void allocate(ScatteringTable& t) {
 ScatteringTable tabulate(const Population& p, const Progress& progress) {
   assert(!p.size_um.empty() && !p.wavelength_nm.empty() && p.index.size() == p.wavelength_nm.size());
   const std::vector<Sizes> sizes = sizes_of(p);
-  const bool may_use_rays = std::all_of(p.index.begin(), p.index.end(), SphereAverage::rays_serve);
+  const bool may_use_rays = std::all_of(p.index.begin(), p.index.end(), SphereAverage::rays_serve) &&
+                            detail_of(p, sizes).relative_width >= least_width_for_rays;
   ScatteringTable t;
   t.size_um = p.size_um;
   t.wavelength_nm = p.wavelength_nm;

@@ -31,9 +31,11 @@ void set_defaults_of_type(Recipe& recipe) {
     recipe.distribution.type = "marshall_palmer";
     // 0.015 to 110 mm/h; a bow changes slowly with the size of drops so broadly distributed.
     recipe.size_um = spaced(150, 1000, 11, Spacing::logarithmic);
+    recipe.radii = 8000;
   } else {
     // Radii of coronas and glories go as 1/r: neighbours further apart than a tenth would show two sets of rings.
     recipe.size_um = spaced(4, 20, 18, Spacing::logarithmic);
+    recipe.radii = 30000;
   }
   recipe.wavelength_nm = spaced(380, 780, 41, Spacing::linear);
 }

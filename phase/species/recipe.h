@@ -28,7 +28,7 @@ struct Recipe {
   std::vector<double> wavelength_nm;   ///< wavelength nodes, vacuum (empty: the default)
   std::string optics = "wave";         ///< wave | geometric
   std::string forward_lobe = "remove"; ///< remove | scatter
-  long long radii = 10000;             ///< spheres that stand for the whole population, shared by all size nodes
+  long long radii = 30000;             ///< spheres that stand for the whole population, shared by all size nodes
 
   /// mie or rain: the kinds whose table this library computes.
   bool is_sphere() const { return type == "mie" || type == "rain"; }

@@ -2,11 +2,15 @@
 
 #include <netcdf.h>
 
-#include <array>
+#include <filesystem>
+#include <fstream>
 #include <mutex>
+#include <sstream>
+#include <string_view>
 #include <type_traits>
 
 #include "phase/base/content_hash.h"
+#include "phase/settings/toml_text.h"
 #include "phase/base/error.h"
 #include "phase/base/version.h"
 #include "phase/base/whole_file.h"
@@ -74,18 +78,22 @@ void for_each_element(Table& t, const Action& action) {
   action(Variable{"P34", "sr-1", "scattering matrix element P34, normalised as P11"}, t.p34);
 }
 
-/// Hash of all numbers of a table, in the order of the file.
-std::string hash_of(const ScatteringTable& t) {
-  std::string bytes;
-  const auto add = [&](const auto& values) {
-    bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof values[0]);
-  };
-  const auto add_variable = [&](const Variable&, const auto& values) { add(values); };
-  add(t.size_um), add(t.wavelength_nm), add(t.scattering_angle_deg);
-  for_each_cross_section(t, add_variable);
-  for_each_element(t, add_variable);
-  add(std::array{t.forward_angle_deg, t.normalisation_error, t.angle_error});
-  return content_hash(bytes);
+/// The last line of a file names the bytes before it. HDF5 ignores what follows its own end, but crashes where its
+/// inner structure was changed, so a file is checked before that library sees it.
+constexpr std::string_view seal_begin = "\narcus-seal-xxh3-128 ";
+std::string seal_of(std::string_view bytes) { return std::string(seal_begin) + content_hash(bytes) + "\n"; }
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream bytes;
+  if (file) bytes << file.rdbuf();
+  return std::move(bytes).str();
+}
+
+bool is_sealed(std::string_view bytes) {
+  const std::size_t length = seal_begin.size() + content_hash("").size() + 1;
+  if (bytes.size() < length) return false;
+  return seal_of(bytes.substr(0, bytes.size() - length)) == bytes.substr(bytes.size() - length);
 }
 
 class Writer {
@@ -131,7 +139,6 @@ class Writer {
     number("forward_angle_deg", file.table.forward_angle_deg);
     number("normalisation_error", file.table.normalisation_error);
     number("angle_error", file.table.angle_error);
-    text("content_hash", hash_of(file.table));
   }
   void axis(const Variable& v, const std::vector<double>& values, int which) {
     check(nc_def_dim(handle_.id, v.name, values.size(), &dimensions_[which]));
@@ -157,6 +164,8 @@ class Reader {
   explicit Reader(const std::string& path) : path_(path) {}
 
   SpeciesFile read() {
+    if (!std::filesystem::is_regular_file(path_)) throw bad_input(path_, "no file", "a phase table in NetCDF-4 expected");
+    if (!is_sealed(bytes_of(path_))) throw damaged("a file that is not as it was written");
     check(nc_open(path_.c_str(), NC_NOWRITE, &handle_.id), "");
     handle_.is_open = true;
     int found_format = 0;
@@ -176,9 +185,7 @@ class Reader {
     file.recipe = text("recipe");
     file.recipe_id = text("recipe_id");
     file.program_version = text("program_version");
-    const std::string hash = text("content_hash");
     check(handle_.close(), "");
-    if (hash != hash_of(t)) throw damaged("numbers that are not those that were written");
     check_table(t, path_);
     return file;
   }
@@ -238,16 +245,48 @@ class Reader {
 
 }  // namespace
 
+namespace {
+
+// HDF5 crashes on some files with a single wrong bit, so damage is found before it sees the file: behind the end of its
+// data, where it does not look, stand these letters and the hash of all before.
+constexpr std::string_view seal_begins = "arcus-xxh3:";
+constexpr std::size_t seal_length = seal_begins.size() + 32;
+
+void seal(const std::string& path) {
+  const std::string content = read_text_file(path);
+  std::ofstream(path, std::ios::binary | std::ios::app) << seal_begins << content_hash(content);
+}
+
+/// Files of other programs have no seal and pass; this program's own pass where they are as they were written.
+void check_seal(const std::string& path) {
+  const std::string content = read_text_file(path);
+  if (content.size() < seal_length) throw bad_input(path, "a damaged file", "a table of phase functions in NetCDF-4 expected");
+  const std::string_view data(content.data(), content.size() - seal_length);
+  const std::string_view end = std::string_view(content).substr(data.size());
+  const bool is_ours = content.find("arcus") != std::string::npos;
+  if (end.starts_with(seal_begins) ? end.substr(seal_begins.size()) != content_hash(data) : is_ours)
+    throw bad_input(path, "a damaged file", "a table of phase functions in NetCDF-4 as it was written expected");
+}
+
+}  // namespace
+
 void write_species_file(const std::string& path, const SpeciesFile& file) {
   WholeFile whole(path);
   {
     const std::lock_guard guard(library());
     Writer(path).write(whole.temporary_path(), file);
   }
+  const std::string seal = seal_of(bytes_of(whole.temporary_path()));
+  std::ofstream end(whole.temporary_path(), std::ios::binary | std::ios::app);
+  end << seal << std::flush;
+  if (!end) throw cannot("cannot write " + path, "the disk may be full");
+  end.close();
+  seal(whole.temporary_path());
   whole.commit();
 }
 
 SpeciesFile read_species_file(const std::string& path) {
+  check_seal(path);
   const std::lock_guard guard(library());
   return Reader(path).read();
 }

@@ -18,8 +18,8 @@ struct SpeciesFile {
 /// Writes the whole file or none. Throws cannot() where it cannot be written.
 void write_species_file(const std::string& path, const SpeciesFile& file);
 
-/// Reads a file and checks it: dimensions, ascending axes, finite values, and a hash of all numbers. Throws bad_input
-/// where it is missing, no such table, or damaged.
+/// Reads a file that write_species_file wrote and checks it: a seal over all its bytes, dimensions, ascending axes, finite
+/// values, integrals. Throws bad_input where it is missing, no such table, or not as it was written.
 SpeciesFile read_species_file(const std::string& path);
 
 }  // namespace arcus::phase
