@@ -177,7 +177,7 @@ void EdgeWaves::sum(double x, Complex m, std::span<const EdgeWindow> windows,
         power_[i] = product(power_[i], make_pair_of(s.reflected_inside, t.reflected_inside));
     }
     const EdgeWindow& window = windows[p];
-    const bool as_power = p >= first_power_order;
+    const bool as_power = p >= first_weak_order;
     const int begin = first_of(window);
     terms_.resize(static_cast<std::size_t>(last - begin + 1));
     for (int l = begin; l <= last; ++l) {

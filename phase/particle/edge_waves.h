@@ -22,7 +22,7 @@ namespace arcus::phase {
 ///   S(theta) = (exp(-i pi/4) F(theta) + exp(i pi/4) F(-theta)) / sqrt(2 pi sin theta).
 /// A bow inside of the window is cut in two at its own ray, so that its two rays can be told apart.
 ///
-/// From order `first_power_order` on, waves and rays are added as powers: share is then the root of
+/// From order `first_weak_order` on, waves and rays are added as powers: share is then the root of
 /// the window, and power() is what counts.
 class EdgeWaves {
  public:
@@ -41,19 +41,18 @@ class EdgeWaves {
   bool has(int order, Branch branch) const { return strip_of(order, branch).transform > 0; }
   /// Largest |F|^2, both polarisations together, in the neighbourhood of an angle of the list,
   /// times `side` (+1, -1). A cheap bound to skip by; 0 where the branch has no waves. Not for
-  /// orders from first_power_order on.
+  /// orders from first_weak_order on.
   double bound(int order, Branch branch, std::size_t angle, int side) const;
   /// F(side theta) at an angle of the list. The branch must have waves.
   ComplexPair value(int order, Branch branch, std::size_t angle, int side) const;
 
-  /// Sum over the orders from first_power_order on of |F|^2 at side times an angle of the list:
+  /// Sum over the orders from first_weak_order on of |F|^2 at side times an angle of the list:
   /// both polarisations, and F_parallel F_perpendicular*.
   struct Power {
     double perpendicular = 0, parallel = 0;
     std::complex<double> mixed = 0;
   };
   Power power(std::size_t angle, int side) const;
-  static constexpr int first_power_order = 4;
 
   /// First moments over the partial waves of an order at phi = 0 (straight on) or pi (straight
   /// back): sum of c_l (l + 1/2) and of c_l (l + 1/2) (l + 1/2 - x) / x, with the sign (-1)^l for

@@ -9,7 +9,12 @@ namespace arcus::phase {
 namespace {
 
 constexpr double reach = 3;  // widths from the centre to where the window is 0 or 1 within 1e-5
-constexpr double fresnel_zones = 3.5;  // least width of the window in Fresnel zones of a ray
+/// Least width of the window in Fresnel zones of its rays: where it falls between bow and edge, and
+/// below the bow. Orders of which powers are added need less care.
+struct Zones {
+  double above_bow, below_bow;
+};
+constexpr Zones strong_zones{3.5, 3}, weak_zones{1.7, 1.7};
 constexpr double bow_reach = 6;  // Airy's variable beyond which the two rays of a bow stand apart
 
 /// Half width in the angle of incidence of a ray's Fresnel zone: the phase x (..) has the second
@@ -42,6 +47,7 @@ double EdgeWindow::begin_rad() const {
 namespace {
 
 EdgeWindow placed_window(const RaysOfOrder& rays, double n, double x) {
+  const Zones zones = rays.order() < first_weak_order ? strong_zones : weak_zones;
   EdgeWindow window;
   // Debye's expansions hold within 1 % of phase up to x cos^3 = 20, and the window should be 1
   // where they don't.
@@ -59,7 +65,7 @@ EdgeWindow placed_window(const RaysOfOrder& rays, double n, double x) {
   // First choice: the window between bow and edge.
   double centre = last;
   for (int i = 0; i < 20; ++i) {
-    window.width_rad = fresnel_zones * fresnel_zone_rad(rays, std::min(centre, last), x);
+    window.width_rad = zones.above_bow * fresnel_zone_rad(rays, std::min(centre, last), x);
     centre = last - reach * window.width_rad;
     if (centre < bow_outer) break;
   }
@@ -68,14 +74,17 @@ EdgeWindow placed_window(const RaysOfOrder& rays, double n, double x) {
   // Second: below the bow, which is then summed as partial waves with the edge.
   window.bow_inside = rays.bow_incidence_rad().has_value();
   if (!window.bow_inside) bow_inner = last;
-  window.width_rad = (bow_inner - 0.15) / (2 * reach);
-  const double middle = bow_inner - reach * window.width_rad;
-  if (window.width_rad < 0.7 * fresnel_zones * fresnel_zone_rad(rays, middle, x)) {
-    window.everything = true;
-    return window;
+  // Rays near the bow have wide zones: the width is for those at the upper flank of the window.
+  const double most = (bow_inner - 0.15) / (2 * reach);
+  double width = most;
+  for (int i = 0; i < 20; ++i) {
+    const double flank = bow_inner - 1.5 * width;
+    width = std::min(most, zones.below_bow * fresnel_zone_rad(rays, flank, x));
   }
-  window.width_rad = std::min(window.width_rad, fresnel_zones * fresnel_zone_rad(rays, middle, x));
-  window.centre_rad = bow_inner - reach * window.width_rad;
+  window.everything =
+      most < 0.7 * zones.below_bow * fresnel_zone_rad(rays, bow_inner - reach * most, x);
+  window.width_rad = width;
+  window.centre_rad = bow_inner - reach * width;
   return window;
 }
 

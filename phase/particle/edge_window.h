@@ -7,6 +7,10 @@
 
 namespace arcus::phase {
 
+/// From this order on powers of waves and rays are added, not amplitudes: too weak for their
+/// fringes to show.
+inline constexpr int first_weak_order = 4;
+
 /// Share of the partial waves at one angle of incidence; rays get the rest.
 struct EdgeWindow {
   double centre_rad = 0, width_rad = 1;  ///< the share is erfc((centre - incidence) / width) / 2

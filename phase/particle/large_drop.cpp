@@ -19,8 +19,6 @@ using Complex = std::complex<double>;
 constexpr int edge_orders = 24;
 // Rays of later orders below the edge carry less than 1e-5 of the light anywhere.
 constexpr int highest_ray_order = 8;
-// From here on powers are added, not amplitudes.
-constexpr int weak_order = EdgeWaves::first_power_order;
 
 }  // namespace
 
@@ -50,7 +48,7 @@ LargeDrop::LargeDrop(Complex m, std::span<const double> angles_rad)
   windows_.resize(rays_.size());
   images_ = std::make_shared<const RayImages>(
       ray_images(m.real(), highest_ray_order, least_size_parameter, angles));
-  weak_rays_ = std::make_shared<const WeakRays>(*images_, weak_order, highest_ray_order);
+  weak_rays_ = std::make_shared<const WeakRays>(*images_, first_weak_order, highest_ray_order);
   edge_ = EdgeWaves(angles);
 }
 
@@ -81,7 +79,7 @@ bool LargeDrop::has_edge(int order, std::size_t angle) const {
 
 void LargeDrop::add_edge(int order, std::size_t angle, OrderField& field) const {
   const Direction& direction = directions_[angle];
-  const double least = order < weak_order ? least_edge(order, angle) : 0;
+  const double least = order < first_weak_order ? least_edge(order, angle) : 0;
   for (const int side : {1, -1})
     for (const auto branch : {EdgeWaves::inner, EdgeWaves::outer}) {
       if (!edge_.has(order, branch) ||
@@ -209,7 +207,7 @@ void LargeDrop::add_weak_orders(double relative_step, std::vector<AmplitudeProdu
         random.i1 * d.powers.own + random.i2 * d.powers.mixed,
         random.i2 * d.powers.own + random.i1 * d.powers.mixed,
         random.i3 * (d.powers.own + d.powers.mixed) + (random.i1 + random.i2) * d.powers.both};
-    for (int p = weak_order; glory && p <= edge_orders; ++p) {
+    for (int p = first_weak_order; glory && p <= edge_orders; ++p) {
       field.clear();
       set_turns(p, d, field);
       if (d.u > at_axis)
@@ -233,9 +231,9 @@ SphereIntensities LargeDrop::scatter(double x, double relative_step, DebyeOrders
   sphere_ = {x, std::cbrt(x), m_.imag()};
   set_directions(relative_step);
   std::vector<AmplitudeProducts> sums(directions_.size());
-  for (int p = orders.first; p <= std::min(orders.last, weak_order - 1); ++p)
+  for (int p = orders.first; p <= std::min(orders.last, first_weak_order - 1); ++p)
     add_strong_order(relative_step, p, sums);
-  if (orders.last >= weak_order) add_weak_orders(relative_step, sums);
+  if (orders.last >= first_weak_order) add_weak_orders(relative_step, sums);
 
   SphereIntensities result;
   const ComplexPair forward = edge_.moments(0, false).zeroth;

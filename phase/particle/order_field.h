@@ -37,9 +37,8 @@ class OrderField {
   void clear();
   /// Gives every wave its phase, so that others can be added to it.
   void apply_phases();
-  /// Adds the products of the field. Fringes are averaged over sizes with the standard deviation of
-  /// a hat function whose half width is relative_step: each pair of waves keeps fringe_left of its
-  /// difference of turns.
+  /// Adds the products of the field. Fringes are averaged over sizes with a hat function whose half
+  /// width is relative_step: each pair of waves keeps fringe_left of its difference of turns.
   void add_to(AmplitudeProducts& sums, double relative_step);
 
  private:
@@ -48,7 +47,8 @@ class OrderField {
   int extras_ = 4;
 };
 
-/// Share of a fringe that an average over sizes leaves; `turn` grows in proportion to the size.
+/// Share of a fringe that the hat function leaves, sinc^2(relative_step turn / 2), up to its first zero
+/// and nothing beyond. `turn` grows in proportion to the size.
 double fringe_left(double relative_step, double turn);
 
 }  // namespace arcus::phase

@@ -129,7 +129,6 @@ class ImageWaves {
 
 void add_rays(std::span<const RayImage> images, const RaySphere& sphere, const EdgeWindow& window,
               bool back, OrderField& field) {
-  if (window.everything) return;
   for (const RayImage& image : images) ImageWaves(image, sphere, window, back, field).add();
 }
 

@@ -16,7 +16,8 @@ struct RaySphere {
 };
 
 /// Adds the images of one order at one angle, which lies in the back hemisphere or not, less the
-/// share of the window.
+/// share of the window. Sets the turns of the waves also where the window leaves no light: edge
+/// waves that stand for the same rays take them.
 void add_rays(std::span<const RayImage> images, const RaySphere& sphere, const EdgeWindow& window,
               bool back, OrderField& field);
 
