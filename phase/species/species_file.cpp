@@ -245,31 +245,6 @@ class Reader {
 
 }  // namespace
 
-namespace {
-
-// HDF5 crashes on some files with a single wrong bit, so damage is found before it sees the file: behind the end of its
-// data, where it does not look, stand these letters and the hash of all before.
-constexpr std::string_view seal_begins = "arcus-xxh3:";
-constexpr std::size_t seal_length = seal_begins.size() + 32;
-
-void seal(const std::string& path) {
-  const std::string content = read_text_file(path);
-  std::ofstream(path, std::ios::binary | std::ios::app) << seal_begins << content_hash(content);
-}
-
-/// Files of other programs have no seal and pass; this program's own pass where they are as they were written.
-void check_seal(const std::string& path) {
-  const std::string content = read_text_file(path);
-  if (content.size() < seal_length) throw bad_input(path, "a damaged file", "a table of phase functions in NetCDF-4 expected");
-  const std::string_view data(content.data(), content.size() - seal_length);
-  const std::string_view end = std::string_view(content).substr(data.size());
-  const bool is_ours = content.find("arcus") != std::string::npos;
-  if (end.starts_with(seal_begins) ? end.substr(seal_begins.size()) != content_hash(data) : is_ours)
-    throw bad_input(path, "a damaged file", "a table of phase functions in NetCDF-4 as it was written expected");
-}
-
-}  // namespace
-
 void write_species_file(const std::string& path, const SpeciesFile& file) {
   WholeFile whole(path);
   {
@@ -281,12 +256,10 @@ void write_species_file(const std::string& path, const SpeciesFile& file) {
   end << seal << std::flush;
   if (!end) throw cannot("cannot write " + path, "the disk may be full");
   end.close();
-  seal(whole.temporary_path());
   whole.commit();
 }
 
 SpeciesFile read_species_file(const std::string& path) {
-  check_seal(path);
   const std::lock_guard guard(library());
   return Reader(path).read();
 }
