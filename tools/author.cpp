@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "media/author/box.h"
+#include "media/author/field.h"
 #include "media/author/rain.h"
 #include "phase/base/whole_file.h"
 #include "tools/command.h"
@@ -66,6 +67,11 @@ void author_box(const AuthorCommand& command, const media::BoxSettings& settings
   media::save_grids(command.output, media::grids_of(media::author_box(settings, folder)));
 }
 
+void author_field(const AuthorCommand& command, const media::FieldSettings& settings) {
+  const std::string folder = std::filesystem::path(command.settings_file).parent_path().string();
+  media::save_grids(command.output, media::author_field(settings, folder));
+}
+
 }  // namespace
 
 void add_author(CLI::App& program) {
@@ -73,6 +79,7 @@ void add_author(CLI::App& program) {
   author->require_subcommand(1);
   add_kind<media::RainSettings>(*author, "rain", "A shower: a shaft of rain under a cloud base", author_rain);
   add_kind<media::BoxSettings>(*author, "box", "A homogeneous block", author_box);
+  add_kind<media::FieldSettings>(*author, "field", "An array of numbers from elsewhere, raw or as text", author_field);
 }
 
 }  // namespace arcus::tools

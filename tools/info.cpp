@@ -1,11 +1,191 @@
-// arcus info: what a file holds, in words.
+// arcus info: what a .vdb, .nc, .exr or .toml file holds, in words or as JSON.
 
 #include <CLI/CLI.hpp>
 
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "media/grid/grid_facts.h"
+#include "phase/base/error.h"
+#include "phase/settings/toml_text.h"
+#include "phase/species/species_cache.h"
+#include "phase/species/make_species.h"
+#include "phase/species/species_file.h"
+#include "src/film/image_file.h"
+#include "src/scene/settings.h"
 #include "tools/command.h"
 
 namespace arcus::tools {
+namespace {
 
-void add_info(CLI::App& program) { program.add_subcommand("info", "What a .vdb, .nc, .exr or .toml file holds"); }
+using Json = nlohmann::ordered_json;
+
+Json of(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
+
+/// Share of the extinction that the renderer lets go straight on, at 550 nm and the sizes' ends, where the grid names a
+/// recipe whose table is in the cache already: looking at a file computes no table.
+Json forward_of(const media::GridFacts& grid, const std::string& where, const std::string& cache_folder) {
+  for (const auto& [name, value] : grid.metadata) {
+    if (name != "arcus_phase") continue;
+    const phase::Recipe recipe = phase::recipe_from_text(value, where + ": arcus_phase");
+    if (!recipe.is_sphere()) return 0.0;
+    const std::string path = phase::SpeciesCache(cache_folder).path_of(phase::recipe_id(recipe));
+    if (!std::filesystem::exists(path)) return nullptr;
+    const phase::ScatteringTable table = phase::read_species_file(path).table;
+    std::size_t wavelength = 0;
+    while (wavelength + 1 < table.wavelength_nm.size() && table.wavelength_nm[wavelength] < 550) ++wavelength;
+    double sum = 0;
+    for (std::size_t size = 0; size < table.size_um.size(); ++size)
+      sum += table.forward_fraction[table.row(size, wavelength)];
+    return sum / static_cast<double>(table.size_um.size());
+  }
+  return nullptr;
+}
+
+Json vdb_facts(const std::string& path, const std::string& cache_folder) {
+  Json grids = Json::array();
+  for (const media::GridFacts& grid : media::describe_vdb(path)) {
+    Json facts{{"grid", grid.label}, {"type", grid.type}};
+    if (!grid.is_readable) {
+      facts["note"] = "a type that OpenVDB does not know";
+      grids.push_back(facts);
+      continue;
+    }
+    facts["class"] = grid.class_words;
+    if (grid.saved_as_half) facts["saved_as"] = "half";
+    facts["active_voxels"] = grid.active_voxels;
+    facts["memory_MiB"] = static_cast<double>(grid.memory_bytes) / (1 << 20);
+    if (grid.is_affine && grid.active_voxels > 0) {
+      facts["voxel_m"] = of(grid.voxel_m);
+      facts["from_m"] = of(grid.bounds_m.low);
+      facts["to_m"] = of(grid.bounds_m.high);
+    }
+    if (grid.values) {
+      facts["smallest_value"] = grid.values->smallest;
+      facts["largest_value"] = grid.values->largest;
+      facts["mean_value"] = grid.values->mean;
+      if (grid.values->not_finite > 0) facts["not_finite_values"] = grid.values->not_finite;
+      const bool is_extinction = grid.label.find(".extinction") != std::string::npos;
+      if (grid.values->depth && is_extinction) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const auto& depth = (*grid.values->depth)[axis];
+          facts[std::string("optical_depth_along_") + "xyz"[axis]] = {{"mean", depth.mean}, {"largest", depth.largest}};
+        }
+        const Json forward = forward_of(grid, path, cache_folder);
+        if (forward.is_number() && forward.get<double>() > 0) {
+          facts["forward_fraction"] = forward;
+          for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto& depth = (*grid.values->depth)[axis];
+            const double rest = 1 - forward.get<double>();
+            facts[std::string("optical_depth_rendered_along_") + "xyz"[axis]] = {{"mean", depth.mean * rest},
+                                                                                 {"largest", depth.largest * rest}};
+          }
+        }
+      }
+    }
+    for (const auto& [name, value] : grid.metadata) facts["metadata"][name] = value;
+    grids.push_back(facts);
+  }
+  return {{"file", path}, {"grids", grids}};
+}
+
+Json table_facts(const std::string& path) {
+  const phase::SpeciesFile file = phase::read_species_file(path);
+  const phase::ScatteringTable& table = file.table;
+  return {{"file", path},
+          {"sizes", table.size_um.size()},
+          {"size_um", {table.size_um.front(), table.size_um.back()}},
+          {"wavelengths", table.wavelength_nm.size()},
+          {"wavelength_nm", {table.wavelength_nm.front(), table.wavelength_nm.back()}},
+          {"scattering_angles", table.scattering_angle_deg.size()},
+          {"forward_angle_deg", table.forward_angle_deg},
+          {"normalisation_error", table.normalisation_error},
+          {"angle_error", table.angle_error},
+          {"recipe_id", file.recipe_id},
+          {"program_version", file.program_version},
+          {"recipe", file.recipe}};
+}
+
+Json picture_facts(const std::string& path) {
+  const render::Image image = render::read_exr(path);
+  Json facts{{"file", path},
+             {"resolution", {image.width_px(), image.height_px()}},
+             {"pixels_from", {image.box().x0, image.box().y0}},
+             {"pixels_to", {image.box().x1, image.box().y1}},
+             {"channels", image.channel_names()}};
+  for (const auto& [name, value] : image.metadata.entries())
+    std::visit([&, name = name](const auto& v) { facts["metadata"][name] = v; }, value);
+  return facts;
+}
+
+Json scene_facts(const std::string& path) {
+  const render::SceneSettings scene = render::read_scene(path, {});
+  Json media = Json::array();
+  for (const auto& medium : scene.media) media.push_back({{"name", medium.name}, {"vdb", medium.vdb}});
+  return {{"file", path}, {"media", media}, {"complete_text", text_of(scene)}};
+}
+
+/// JSON as indented lines for people.
+void print_words(const Json& value, int indent) {
+  const std::string margin(static_cast<std::size_t>(indent), ' ');
+  for (const auto& [key, entry] : value.items()) {
+    const bool is_list_of_tables = entry.is_array() && !entry.empty() && entry[0].is_object();
+    if (entry.is_object()) {
+      std::cout << margin << key << ":\n";
+      print_words(entry, indent + 2);
+    } else if (is_list_of_tables) {
+      for (const Json& one : entry) {
+        print_words(one, indent);
+        std::cout << '\n';
+      }
+    } else if (entry.is_string() && entry.get<std::string>().find('\n') != std::string::npos) {
+      std::cout << margin << key << ":\n";
+      std::istringstream lines(entry.get<std::string>());
+      for (std::string line; std::getline(lines, line);) std::cout << margin << "  " << line << '\n';
+    } else if (entry.is_string()) {
+      std::cout << margin << key << ": " << entry.get<std::string>() << '\n';
+    } else {
+      std::cout << margin << key << ": " << entry.dump() << '\n';
+    }
+  }
+}
+
+struct InfoCommand {
+  std::string file, cache_folder;
+  bool json = false;
+};
+
+void run(const InfoCommand& command) {
+  const std::string ending = std::filesystem::path(command.file).extension().string();
+  Json facts;
+  if (ending == ".vdb") {
+    facts = vdb_facts(command.file,
+                      command.cache_folder.empty() ? phase::default_cache_folder() : command.cache_folder);
+  } else if (ending == ".nc") {
+    facts = table_facts(command.file);
+  } else if (ending == ".exr") {
+    facts = picture_facts(command.file);
+  } else if (ending == ".toml") {
+    facts = scene_facts(command.file);
+  } else {
+    throw bad_input(command.file, "the ending '" + ending + "'", ".vdb, .nc, .exr or .toml expected");
+  }
+  if (command.json) std::cout << facts.dump(1) << '\n';
+  else print_words(facts, 0);
+}
+
+}  // namespace
+
+void add_info(CLI::App& program) {
+  auto command = std::make_shared<InfoCommand>();
+  CLI::App* app = program.add_subcommand("info", "What a .vdb, .nc, .exr or .toml file holds");
+  app->add_option("FILE", command->file, "the file")->required();
+  app->add_flag("--json", command->json, "for programs");
+  app->add_option("--cache", command->cache_folder, "folder of the phase tables (default: $XDG_CACHE_HOME/arcus/phase)");
+  app->callback([command] { run(*command); });
+}
 
 }  // namespace arcus::tools

@@ -162,14 +162,13 @@ DiscConvolution::Stencil DiscConvolution::stencil_at(int node) const {
   return stencil;
 }
 
-std::vector<float> DiscConvolution::apply(const std::vector<float>& values, int rows,
-                                          const WavelengthGrid& wavelengths) const {
+void DiscConvolution::apply(std::span<const float> values, int rows,
+                            const WavelengthGrid& wavelengths, std::span<float> result) const {
   const std::size_t angles = angle_rad_.size(), count = wavelengths.count();
   std::vector<std::array<double, powers>> radiance;  // [wavelength][power]
   for (std::size_t k = 0; k < count; ++k)
     radiance.push_back(disc_.coefficients(wavelengths.wavelength_nm(static_cast<double>(k))));
 
-  std::vector<float> result(values.size());
   tbb::parallel_for(std::size_t{0}, angles, [&](std::size_t i) {
     const Stencil& stencil = stencils_[i];
     std::vector<float> weights(stencil.weight.size() * count);  // [neighbour][wavelength]
@@ -181,12 +180,12 @@ std::vector<float> DiscConvolution::apply(const std::vector<float>& values, int 
       }
     for (int row = 0; row < rows; ++row) {
       float* out = result.data() + (row * angles + i) * count;
+      std::fill_n(out, count, 0.0f);
       const float* in = values.data() + (row * angles + stencil.first) * count;
       for (std::size_t j = 0; j < stencil.weight.size(); ++j)
         for (std::size_t k = 0; k < count; ++k) out[k] += weights[j * count + k] * in[j * count + k];
     }
   });
-  return result;
 }
 
 }  // namespace arcus::phase

@@ -3,6 +3,7 @@
 // the phase function alone tells what it receives from the disc's centre.
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "phase/function/wavelength_grid.h"
@@ -18,8 +19,8 @@ class DiscConvolution {
   DiscConvolution(const std::vector<double>& angle_deg, const DiscProfile& disc);
 
   /// values and the result: [row][angle][wavelength], wavelength fastest, at the nodes of the grid.
-  std::vector<float> apply(const std::vector<float>& values, int rows,
-                           const WavelengthGrid& wavelengths) const;
+  void apply(std::span<const float> values, int rows, const WavelengthGrid& wavelengths,
+             std::span<float> result) const;
 
  private:
   /// The mean at one node as a sum over its neighbours, one set of weights for each power of mu in

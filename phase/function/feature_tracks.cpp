@@ -36,24 +36,38 @@ std::array<double, 4> fit(const std::vector<double>& x, const std::vector<double
   return result;
 }
 
-/// A smooth curve through positions found at some of the wavelengths; not found where they are few or do not lie on one.
+using Positions = std::vector<std::optional<double>>;  // [wavelength], where found [deg]
+
+/// A smooth curve through the longest run of positions found at neighbouring wavelengths. Not found
+/// where the run is shorter than `least`, or its positions do not lie on such a curve.
 FeatureTracks::Track track_through(const std::vector<double>& wavelength_nm,
-                                   const std::vector<std::optional<double>>& position_deg, double tolerance_deg) {
-  FeatureTracks::Track track;
-  const double first = inverse_square(wavelength_nm.front()), last = inverse_square(wavelength_nm.back());
-  track.centre = 0.5 * (first + last);
-  track.half_range = std::fmax(0.5 * std::fabs(first - last), 1e-12);
-  std::vector<double> x, y;
-  for (std::size_t j = 0; j < wavelength_nm.size(); ++j)
-    if (position_deg[j]) {
-      x.push_back((inverse_square(wavelength_nm[j]) - track.centre) / track.half_range);
-      y.push_back(*position_deg[j]);
+                                   const Positions& position_deg, std::size_t least,
+                                   double tolerance_deg) {
+  std::size_t first = 0, count = 0;
+  for (std::size_t i = 0, run = 0; i < position_deg.size(); ++i) {
+    run = position_deg[i] ? run + 1 : 0;
+    if (run > count) {
+      count = run;
+      first = i + 1 - run;
     }
-  if (x.size() < 3 || 5 * x.size() < 4 * wavelength_nm.size()) return track;
-  track.coefficients = fit(x, y, x.size() >= 8 ? 4 : x.size() >= 5 ? 3 : 2);
+  }
+  FeatureTracks::Track track;
+  if (count < std::max<std::size_t>(3, least)) return track;
+  track.first_nm = wavelength_nm[first];
+  track.last_nm = wavelength_nm[first + count - 1];
+  const double a = inverse_square(track.first_nm), b = inverse_square(track.last_nm);
+  track.centre = 0.5 * (a + b);
+  track.half_range = 0.5 * (a - b);
+  std::vector<double> x, y;
+  for (std::size_t i = first; i < first + count; ++i) {
+    x.push_back((inverse_square(wavelength_nm[i]) - track.centre) / track.half_range);
+    y.push_back(*position_deg[i]);
+  }
+  track.coefficients = fit(x, y, count >= 8 ? 4 : count >= 5 ? 3 : 2);
   double squares = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) squares += std::pow(y[i] - horner(track.coefficients, x[i]), 2);
-  track.found = std::sqrt(squares / static_cast<double>(x.size())) < tolerance_deg;
+  for (std::size_t i = 0; i < count; ++i)
+    squares += std::pow(y[i] - horner(track.coefficients, x[i]), 2);
+  track.found = std::sqrt(squares / static_cast<double>(count)) < tolerance_deg;
   return track;
 }
 
@@ -69,7 +83,8 @@ class RowSearch {
  public:
   RowSearch(const std::vector<double>& angle_deg, const float* row) : angle_(angle_deg), row_(row) {}
 
-  /// The largest value between 110° and 165°, where the first bow of everything with an index from 1.2 to 1.5 lies.
+  /// The largest value between 110° and 165°, where the first bow of everything with an index from
+  /// 1.2 to 1.5 lies.
   std::optional<double> primary() const {
     const int from = node_after(110), to = node_after(165);
     const int top = static_cast<int>(std::max_element(row_ + from, row_ + to) - row_);
@@ -77,19 +92,34 @@ class RowSearch {
     return vertex(&angle_[top - 1], row_ + top - 1);
   }
 
-  /// The first clear maximum on the way forward from the first bow's foot.
+  /// The highest maximum of its surroundings on the way forward from the first bow's foot.
   std::optional<double> secondary(double primary_deg) const {
-    const int from = std::max(1, node_after(primary_deg - 60));
-    float lowest = row_[node_after(primary_deg)];
-    for (int i = node_after(primary_deg); i > from; --i) {
-      lowest = std::min(lowest, row_[i]);
-      if (row_[i] > 1.1f * lowest && row_[i] >= row_[i - 1] && is_highest_within(i, 1.0))
-        return vertex(&angle_[i - 1], row_ + i - 1);
-    }
-    return {};
+    return highest(primary_deg - 25, primary_deg - 3, 1.0, 1.1f, false);
+  }
+
+  /// The highest maximum in the dark between the two: a bow of higher order, the fifth in water.
+  std::optional<double> faint(double secondary_deg, double primary_deg) const {
+    return highest(secondary_deg + 1.5, primary_deg - 1.5, 0.5, 1.03f, true);
   }
 
  private:
+  /// The highest of the nodes that are highest within `range` of them and rise by `rise` above the
+  /// lowest value found behind them, and also in front of them where `both_sides`.
+  std::optional<double> highest(double from_deg, double to_deg, double range_deg, float rise,
+                                bool both_sides) const {
+    const int from = std::max(1, node_after(from_deg)), to = node_after(to_deg);
+    float behind = row_[to];
+    int top = 0;
+    for (int i = to; i > from; --i) {
+      behind = std::min(behind, row_[i]);
+      if (row_[i] <= rise * behind || (top > 0 && row_[i] <= row_[top])) continue;
+      if (both_sides && row_[i] <= rise * *std::min_element(row_ + from, row_ + i)) continue;
+      if (is_highest_within(i, range_deg)) top = i;
+    }
+    if (top == 0) return {};
+    return vertex(&angle_[top - 1], row_ + top - 1);
+  }
+
   int node_after(double deg) const {
     return static_cast<int>(std::upper_bound(angle_.begin(), angle_.end() - 1, deg) - angle_.begin());
   }
@@ -116,6 +146,8 @@ double step(double x) { return 0.5 * (1 + x / std::sqrt(1 + x * x)); }
 
 /// Reach of a bow's supernumeraries in Airy's units and at most in degrees; of the rings in x sin θ.
 constexpr double bow_range_units = 25, bow_range_deg = 20, ring_range = 25;
+/// What moves with a bow in the dark band [deg].
+constexpr double faint_range_deg = 2;
 
 }  // namespace
 
@@ -136,19 +168,29 @@ FeatureTracks::FeatureTracks(const std::vector<double>& angle_deg,
   unit_deg_ = degrees(1.695 * std::pow(x, -2.0 / 3));
   ring_range_deg_ = std::fmin(15.0, degrees(ring_range / x));
 
+  const std::size_t count = wavelength_nm.size(), most = (4 * count + 4) / 5;
+  const auto search = [&](auto find, std::size_t least, double tolerance_deg) {
+    Positions positions;
+    for (std::size_t j = 0; j < count; ++j)
+      positions.push_back(find(RowSearch(angle_deg, rows.data() + j * angle_deg.size()), wavelength_nm[j]));
+    return track_through(wavelength_nm, positions, least, tolerance_deg);
+  };
   const double tolerance_deg = 0.02 + 0.15 * unit_deg_;
-  std::vector<std::optional<double>> first, second;
-  for (std::size_t j = 0; j < wavelength_nm.size(); ++j)
-    first.push_back(RowSearch(angle_deg, rows.data() + j * angle_deg.size()).primary());
-  primary_ = track_through(wavelength_nm, first, tolerance_deg);
+  primary_ = search([](const RowSearch& row, double) { return row.primary(); }, most, tolerance_deg);
   if (!primary_.found) return;
-  for (std::size_t j = 0; j < wavelength_nm.size(); ++j)
-    second.push_back(RowSearch(angle_deg, rows.data() + j * angle_deg.size())
-                         .secondary(primary_.at_nm(wavelength_nm[j])));
-  secondary_ = track_through(wavelength_nm, second, 2 * tolerance_deg);
+  secondary_ = search(
+      [&](const RowSearch& row, double nm) { return row.secondary(primary_.at_nm(nm)); }, most,
+      2 * tolerance_deg);
+  if (!secondary_.found) return;
+  faint_ = search(
+      [&](const RowSearch& row, double nm) {
+        return row.faint(secondary_.at_nm(nm), primary_.at_nm(nm));
+      },
+      6, 2 * tolerance_deg);
 }
 
-void FeatureTracks::movers(double wavelength_nm, std::span<Mover> mover) const {
+void FeatureTracks::movers(double wavelength_nm, double low_nm, double high_nm,
+                           std::span<Mover> mover) const {
   const double ratio = wavelength_nm / middle_nm_, unit = unit_deg_ * std::pow(ratio, 2.0 / 3);
   const double second_unit = 1.78 * unit;  // ∛(27.6/4.87): h of the second bow over h of the first
   const double rings = ring_range_deg_ * ratio;
@@ -159,17 +201,22 @@ void FeatureTracks::movers(double wavelength_nm, std::span<Mover> mover) const {
   // The foot of the first bow reaches 4 units into the dark; two bows share the dark between them.
   const double border = secondary_.found ? 0.5 * (top + second_top) : top - 4 * unit - 2;
   const double border_width = secondary_.found ? (top - second_top) / 16 : 0.5 * unit + 0.5;
+  const bool faint = faint_.found && low_nm >= faint_.first_nm && high_nm <= faint_.last_nm;
+  const double faint_top = faint ? faint_.at_nm(wavelength_nm) : 0;
   for (std::size_t i = 0; i < angle_deg_.size(); ++i) {
     const double angle = angle_deg_[i];
     const double back = fade(180 - angle, rings), front = rings_in_front_ ? fade(angle, rings) : 0;
-    const double rest = (1 - back) * (1 - front), behind = step((angle - border) / border_width);
     Mover m{};
+    if (faint) m.faint = fade(angle - faint_top, faint_range_deg);
+    const double rest = (1 - back) * (1 - front) * (1 - m.faint);
+    const double behind = step((angle - border) / border_width);
     if (primary_.found)
       m.primary = rest * behind * fade(std::fmax(0.0, angle - top), range);
     if (secondary_.found)
       m.secondary =
           rest * (1 - behind) * fade(std::fmax(0.0, second_top - angle), second_range);
-    m.opening = m.primary * (angle - top) + m.secondary * (angle - second_top);
+    m.opening = m.primary * (angle - top) + m.secondary * (angle - second_top) +
+                m.faint * (angle - faint_top);
     m.ring = front * angle - back * (180 - angle);
     mover[i] = m;
   }
@@ -179,6 +226,7 @@ FeatureTracks::Shift FeatureTracks::shift(double from_nm, double to_nm) const {
   const double ratio = to_nm / from_nm;
   return {primary_.found ? primary_.at_nm(to_nm) - primary_.at_nm(from_nm) : 0,
           secondary_.found ? secondary_.at_nm(to_nm) - secondary_.at_nm(from_nm) : 0,
+          faint_.found ? faint_.at_nm(to_nm) - faint_.at_nm(from_nm) : 0,
           std::pow(ratio, 2.0 / 3) - 1, ratio - 1};
 }
 

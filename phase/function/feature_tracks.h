@@ -25,19 +25,21 @@ class FeatureTracks {
 
   /// What moves the surroundings of an angle: shares of both bows and of the rings.
   struct Mover {
-    double primary, secondary;  ///< share of the bow's own shift
-    double opening;             ///< share × angle from the bow's maximum [deg]
-    double ring;                ///< share × angle from 0 or, negative, from 180° [deg]
+    double primary, secondary, faint;  ///< shares of the bows' own shifts
+    double opening;                    ///< share × angle from the bow's maximum [deg]
+    double ring;                       ///< share × angle from 0 or, negative, from 180° [deg]
   };
-  /// What moves every angle node at a wavelength. Only where anything_moves().
-  void movers(double wavelength_nm, std::span<Mover> mover) const;
+  /// What moves every angle node at a wavelength, to be followed between low_nm and high_nm. Only
+  /// where anything_moves().
+  void movers(double wavelength_nm, double low_nm, double high_nm, std::span<Mover> mover) const;
 
   /// Where what moves does so from one wavelength to another, smoothly in both.
   struct Shift {
-    double primary, secondary;  // of the bows [deg]
-    double opening, ring;       // relative
+    double primary, secondary, faint;  // of the bows [deg]
+    double opening, ring;              // relative
     double of(const Mover& m) const {
-      return m.primary * primary + m.secondary * secondary + m.opening * opening + m.ring * ring;
+      return m.primary * primary + m.secondary * secondary + m.faint * faint +
+             m.opening * opening + m.ring * ring;
     }
   };
   Shift shift(double from_nm, double to_nm) const;
@@ -45,13 +47,16 @@ class FeatureTracks {
   /// Angle of the maximum of a bow.
   struct Track {
     bool found = false;
-    double centre = 0, half_range = 1;   // of t = 1e5 / wavelength²
+    double first_nm = 0, last_nm = 0;      ///< where it was found
+    double centre = 0, half_range = 1;     // of t = 1e5 / wavelength²
     std::array<double, 4> coefficients{};  // of powers of (t − centre)/half_range [deg]
     double at_nm(double wavelength_nm) const;
   };
-  /// The bow of one internal reflection, and of two.
+  /// The bow of one internal reflection, of two, and a fainter one in the dark between them, which
+  /// may merge with one of them beyond some wavelength.
   const Track& primary() const { return primary_; }
   const Track& secondary() const { return secondary_; }
+  const Track& faint() const { return faint_; }
 
  private:
   std::vector<double> angle_deg_;  // empty where nothing moves
@@ -59,7 +64,7 @@ class FeatureTracks {
   double unit_deg_ = 0;        // Airy's unit of angle in the first bow at middle_nm_
   double ring_range_deg_ = 0;  // reach of the rings at middle_nm_
   bool rings_in_front_ = false;
-  Track primary_, secondary_;
+  Track primary_, secondary_, faint_;
 };
 
 }  // namespace arcus::phase

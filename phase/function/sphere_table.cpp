@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <cstring>
 
 #include "phase/function/sphere_table_guides.h"
 
@@ -17,39 +18,62 @@ struct SphereTable::Columns {
   Spectrum share;              // of the upper one, in [0, 1]
 };
 
+namespace {
+
+/// Two neighbouring values from each of four places: the first of each pair, and the second.
+struct Neighbours {
+  Spectrum first, second;
+};
+
+inline Neighbours neighbours(const float* values, const int* places) {
+  // Eight bytes at a time: half of the loads that single values would take.
+  typedef double Pairs __attribute__((vector_size(16)));
+  typedef int Index __attribute__((vector_size(16)));
+  const auto pair = [&](int i) {
+    double two;
+    std::memcpy(&two, values + places[i], sizeof two);
+    return two;
+  };
+  const auto a = reinterpret_cast<Spectrum::Lanes>(Pairs{pair(0), pair(1)});
+  const auto b = reinterpret_cast<Spectrum::Lanes>(Pairs{pair(2), pair(3)});
+  return {__builtin_shuffle(a, b, Index{0, 2, 4, 6}), __builtin_shuffle(a, b, Index{1, 3, 5, 7})};
+}
+
+}  // namespace
+
 SphereTable::Place SphereTable::place_of(const HalfAngle& angle) const {
-  // On either side the half angle that keeps its digits.
-  if (angle.sin2 < 0.5) {
-    int node = forward_guide_[angle_cell(angle.sin2)];
-    while (angle.sin2 >= nodes_[node + 1].sin2) ++node;
-    return {node, static_cast<float>((angle.sin2 - nodes_[node].sin2) * nodes_[node].per_width)};
-  }
-  int node = backward_guide_[angle_cell(angle.cos2)];
-  while (angle.cos2 < nodes_[node + 1].cos2) ++node;
-  return {node, static_cast<float>((nodes_[node].cos2 - angle.cos2) * nodes_[node].per_width)};
+  // Written so that no jump depends on the angle, but for the rare walk over more than two nodes.
+  const bool forward = angle.sin2 < angle.cos2;
+  const int from_end = cell_from_end(forward ? angle.sin2 : angle.cos2);
+  const double key = forward ? angle.sin2 : -angle.cos2;
+  int node = angle_guide_[forward ? from_end : 2 * angle_cells - 1 - from_end];
+  node += key >= intervals_[node].high;
+  node += key >= intervals_[node].high;
+  while (key >= intervals_[node].high) ++node;
+  const Interval& interval = intervals_[node];
+  return {node, static_cast<float>((key - interval.low) * interval.per_width)};
 }
 
 SphereTable::Columns SphereTable::columns_of(const WavelengthGrid& grid,
                                              const Wavelengths& wavelengths) {
+  const Spectrum position = grid.positions(wavelengths);
+  typedef int Ints __attribute__((vector_size(16)));
+  const int last = grid.count() - 2;
+  Ints node = __builtin_convertvector(position.lanes, Ints);
+  node = node < last ? node : last - Ints{};
   Columns columns;
-  for (int i = 0; i < wavelength_count; ++i) {
-    const float position = grid.position(wavelengths[i]);
-    columns.node[i] = std::min(static_cast<int>(position), grid.count() - 2);
-    columns.share[i] = position - static_cast<float>(columns.node[i]);
-  }
+  columns.share = position.lanes - __builtin_convertvector(node, Spectrum::Lanes);
+  std::memcpy(columns.node, &node, sizeof node);
   return columns;
 }
 
 Spectrum SphereTable::read(const Layer& layer, int size, const Place& place,
                            const Columns& columns) const {
-  const float* lower = layer.values.data() + row(layer.grid, size, place.node);
-  const float* upper = lower + layer.grid.count();
-  const int* k = columns.node;
-  const Spectrum a(lower[k[0]], lower[k[1]], lower[k[2]], lower[k[3]]);
-  const Spectrum b(lower[k[0] + 1], lower[k[1] + 1], lower[k[2] + 1], lower[k[3] + 1]);
-  const Spectrum c(upper[k[0]], upper[k[1]], upper[k[2]], upper[k[3]]);
-  const Spectrum d(upper[k[0] + 1], upper[k[1] + 1], upper[k[2] + 1], upper[k[3] + 1]);
-  const Spectrum at_lower = a + (b - a) * columns.share, at_upper = c + (d - c) * columns.share;
+  const float* values = layer.values.data() + row(layer.grid, size, place.node);
+  const Neighbours lower = neighbours(values, columns.node);
+  const Neighbours upper = neighbours(values + layer.grid.count(), columns.node);
+  const Spectrum at_lower = lower.first + (lower.second - lower.first) * columns.share;
+  const Spectrum at_upper = upper.first + (upper.second - upper.first) * columns.share;
   return at_lower + (at_upper - at_lower) * place.share;
 }
 
@@ -66,35 +90,43 @@ Spectrum SphereTable::sunlit_value_per_sr(int size, const HalfAngle& angle,
 
 SphereTable::AngleDraw SphereTable::draw(int size, const Wavelengths& wavelengths,
                                          Random& random) const {
-  // The value at the first wavelength is a mixture of two neighbours on the fine grid: choose one of
-  // them, draw from it.
+  // Of the 53 bits of one number the leading 32 find the interval, the others choose the row: the
+  // value at the first wavelength is a mixture of two neighbours on the fine grid. What is left of
+  // them, scaled up again, keeps the angle continuous within narrow intervals.
+  const double number = random.uniform_double() * 0x1p32;
+  const auto leading_bits = static_cast<std::uint32_t>(number);
   const Columns columns = columns_of(plain_.grid, wavelengths);
-  const int column = columns.node[0] + (random.uniform() < columns.share[0] ? 1 : 0);
+  double rest = number - leading_bits;
+  const double upper_share = columns.share[0];
+  const bool upper = rest < upper_share;
+  rest = upper ? rest / upper_share : (rest - upper_share) / (1 - upper_share);
+  const int column = columns.node[0] + upper;
   const std::size_t draw_row = static_cast<std::size_t>(size) * plain_.grid.count() + column;
 
-  // The leading 32 bits find the interval; the rest of 53 keeps the angle continuous in narrow ones.
-  const double position = random.uniform_double() * whole;
+  const double position = (leading_bits + rest) * (whole / 0x1p32);
   const auto leading = static_cast<std::uint32_t>(position);
-  const std::uint32_t* cumulative = cumulative_.data() + draw_row * nodes_.size();
+  const std::uint32_t* cumulative = cumulative_.data() + draw_row * angles_.size();
   int node = draw_guide_[draw_row * draw_cells + (leading >> draw_cell_shift)];
+  // The values lie nearby: have them come while the interval is looked for.
+  const float* nearby = plain_.values.data() + row(plain_.grid, size, node);
+  for (const int k : columns.node) {
+    __builtin_prefetch(nearby + k);
+    __builtin_prefetch(nearby + plain_.grid.count() + k);
+  }
   while (leading >= cumulative[node + 1]) ++node;
-  const double share =
-      (position - cumulative[node]) / (cumulative[node + 1] - cumulative[node]);
+  const double share = (position - cumulative[node]) / (cumulative[node + 1] - cumulative[node]);
 
   // Inverse of the quadratic cumulative of a density linear from a to b, without cancellation.
-  const double a = plain_.values[row(plain_.grid, size, node) + column];
-  const double b = plain_.values[row(plain_.grid, size, node + 1) + column];
-  const double t = share * (a + b) / (a + std::sqrt((1 - share) * a * a + share * b * b));
+  const float* values = plain_.values.data() + row(plain_.grid, size, node) + column;
+  const double a = values[0], b = values[plain_.grid.count()];
+  const double t =
+      std::fmin(1.0, share * (a + b) / (a + std::sqrt((1 - share) * a * a + share * b * b)));
 
-  const Node& n = nodes_[node];
+  const Interval& interval = intervals_[node];
+  const double key = interval.low + t * interval.width();
   AngleDraw drawn;
-  if (n.sin2 < 0.5) {
-    drawn.angle.sin2 = std::fmin(1.0, n.sin2 + t * n.width);
-    drawn.angle.cos2 = 1 - drawn.angle.sin2;
-  } else {
-    drawn.angle.cos2 = std::fmax(0.0, n.cos2 - t * n.width);
-    drawn.angle.sin2 = 1 - drawn.angle.cos2;
-  }
+  drawn.angle = interval.low >= 0 ? HalfAngle{key, 1 - key}
+                                  : HalfAngle{1 + key, std::fmax(0.0, -key)};
   drawn.value_per_sr = read(plain_, size, {node, static_cast<float>(t)}, columns);
   return drawn;
 }
@@ -106,7 +138,7 @@ double SphereTable::asymmetry(int size, int wavelength_node) const {
     const double a = plain_.values[row(plain_.grid, size, i) + wavelength_node];
     const double b = plain_.values[row(plain_.grid, size, i + 1) + wavelength_node];
     const double lower = angle(i).cosine(), upper = angle(i + 1).cosine();
-    sum += 4 * pi * nodes_[i].width * (lower * (2 * a + b) + upper * (a + 2 * b)) / 6;
+    sum += 4 * pi * intervals_[i].width() * (lower * (2 * a + b) + upper * (a + 2 * b)) / 6;
   }
   return sum;
 }
@@ -114,9 +146,8 @@ double SphereTable::asymmetry(int size, int wavelength_node) const {
 std::size_t SphereTable::memory_bytes() const {
   return (plain_.values.size() + sunlit_.values.size()) * sizeof(float) +
          cumulative_.size() * sizeof(std::uint32_t) +
-         (draw_guide_.size() + forward_guide_.size() + backward_guide_.size()) *
-             sizeof(std::uint16_t) +
-         nodes_.size() * sizeof(Node);
+         (draw_guide_.size() + angle_guide_.size()) * sizeof(std::uint16_t) +
+         angles_.size() * sizeof(HalfAngle) + intervals_.size() * sizeof(Interval);
 }
 
 }  // namespace arcus::phase

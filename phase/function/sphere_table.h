@@ -14,6 +14,7 @@
 #include "phase/base/spectrum.h"
 #include "phase/base/wavelengths.h"
 #include "phase/function/half_angle.h"
+#include "phase/function/large_vector.h"
 #include "phase/function/wavelength_grid.h"
 #include "phase/population/scattering_table.h"
 
@@ -38,9 +39,9 @@ class SphereTable {
   explicit SphereTable(const ScatteringTable& table, const SphereTableOptions& options = {});
 
   int size_count() const { return size_count_; }
-  int angle_count() const { return static_cast<int>(nodes_.size()); }
-  /// Angle of a node; ascending from θ = 0 to 180°.
-  HalfAngle angle(int node) const { return {nodes_[node].sin2, nodes_[node].cos2}; }
+  int angle_count() const { return static_cast<int>(angles_.size()); }
+  /// Angle of a node; ascending from θ = 0 to 180°. The table's nodes, and 90°.
+  HalfAngle angle(int node) const { return angles_[node]; }
   /// The fine wavelength grid of values and draws.
   const WavelengthGrid& wavelengths() const { return plain_.grid; }
   bool includes_sun_disc() const { return !sunlit_.values.empty(); }
@@ -66,22 +67,23 @@ class SphereTable {
   double asymmetry(int size, int wavelength_node) const;
 
  private:
-  /// An angle node and what interpolation towards the next one needs.
-  struct Node {
-    double sin2, cos2;  // HalfAngle of the node
-    double width;       // in sin², to the next node, without cancellation at either end; 0 at the last
-    double per_width;   // 1/width
+  /// An interval between neighbouring angle nodes, in a key that has full relative precision at
+  /// both ends: s = sin²(θ/2) up to 90°, which is always a node, and −cos²(θ/2) beyond.
+  struct Interval {
+    double low, high;  // keys at its ends
+    double per_width;  // 1/(high − low)
+    double width() const { return high - low; }
   };
   /// Values [size][angle][wavelength], wavelength fastest [1/sr].
   struct Layer {
     WavelengthGrid grid;
-    std::vector<float> values;
+    LargeVector<float> values;
   };
   struct Place;    // a position between two angle nodes
   struct Columns;  // positions between the nodes of a wavelength grid
 
   std::size_t row(const WavelengthGrid& grid, int size, int angle_node) const {
-    return (static_cast<std::size_t>(size) * nodes_.size() + angle_node) * grid.count();
+    return (static_cast<std::size_t>(size) * angles_.size() + angle_node) * grid.count();
   }
   Place place_of(const HalfAngle& angle) const;
   static Columns columns_of(const WavelengthGrid& grid, const Wavelengths& wavelengths);
@@ -92,15 +94,15 @@ class SphereTable {
   void make_cumulative(int size);
 
   int size_count_ = 0;
-  std::vector<Node> nodes_;  // ascending angle
-  // The interval in which a cell begins, seen from 0 and from 180°; cells uniform in sin(θ/2) and
-  // in cos(θ/2).
-  std::vector<std::uint16_t> forward_guide_, backward_guide_;
+  std::vector<HalfAngle> angles_;     // [angle]
+  std::vector<Interval> intervals_;   // [angle], one fewer
+  // The interval in which a cell begins; cells in the order of angle, see sphere_table_guides.h.
+  std::vector<std::uint16_t> angle_guide_;
   Layer plain_, sunlit_;  // sunlit_: averaged over the sun's disc; no values without one
   // [size][wavelength][angle], angle fastest: probability of a smaller angle, in 1/(2^32 − 1).
-  std::vector<std::uint32_t> cumulative_;
+  LargeVector<std::uint32_t> cumulative_;
   // [size][wavelength][cell of probability]: the interval in which the cell begins.
-  std::vector<std::uint16_t> draw_guide_;
+  LargeVector<std::uint16_t> draw_guide_;
 };
 
 }  // namespace arcus::phase

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include "phase/function/disc_convolution.h"
@@ -55,24 +56,45 @@ int accurate_node_count(const ScatteringTable& table, const Interpolations& rows
   return static_cast<int>(std::fmin(std::fmax(count, fewest_nodes), 1e6));
 }
 
+/// The angle nodes of a SphereTable: those of the scattering table, and 90°.
+struct Angles {
+  std::vector<double> deg;
+  int inserted = 0;        // where 90° was inserted; 0: it was there
+  float inserted_share = 0;  // of the next node, where values are linear in s
+
+  explicit Angles(const std::vector<double>& table_deg) : deg(table_deg) {
+    const auto next = std::lower_bound(deg.begin(), deg.end(), 90.0);
+    if (*next == 90) return;
+    const double a = sin2_half_deg(*(next - 1)), b = sin2_half_deg(*next);
+    inserted_share = static_cast<float>((0.5 - a) / (b - a));
+    inserted = static_cast<int>(next - deg.begin());
+    deg.insert(next, 90.0);
+  }
+  int count() const { return static_cast<int>(deg.size()); }
+  int table_count() const { return count() - (inserted > 0); }
+  /// Value at one of the nodes from those at the table's.
+  float value(const float* row, int node) const {
+    if (inserted == 0 || node < inserted) return row[node];
+    if (node > inserted) return row[node - 1];
+    return row[node - 1] + inserted_share * (row[node] - row[node - 1]);
+  }
+};
+
 /// All sizes at the nodes of a grid: [size][angle][wavelength].
-std::vector<float> evaluate_all(const Interpolations& rows, const WavelengthGrid& grid, int angles) {
+LargeVector<float> evaluate_all(const Interpolations& rows, const WavelengthGrid& grid,
+                                const Angles& angles) {
   const int sizes = static_cast<int>(rows.size()), count = grid.count();
-  std::vector<float> values(static_cast<std::size_t>(sizes) * angles * count);
+  LargeVector<float> values(static_cast<std::size_t>(sizes) * angles.count() * count);
   constexpr int block = 16;  // wavelengths at a time: a cache line of the result
   const int blocks = (count + block - 1) / block;
   tbb::parallel_for(0, sizes * blocks, [&](int job) {
     const int size = job / blocks, first = job % blocks * block;
     const int width = std::min(block, count - first);
-    std::vector<float> part(static_cast<std::size_t>(width) * angles);
-    for (int k = 0; k < width; ++k)
-      rows[size]->evaluate(grid.wavelength_nm(first + k),
-                           {part.data() + static_cast<std::size_t>(k) * angles,
-                            static_cast<std::size_t>(angles)});
-    float* out = values.data() + static_cast<std::size_t>(size) * angles * count + first;
-    for (int i = 0; i < angles; ++i)
-      for (int k = 0; k < width; ++k)
-        out[static_cast<std::size_t>(i) * count + k] = part[static_cast<std::size_t>(k) * angles + i];
+    std::vector<std::vector<float>> part(width, std::vector<float>(angles.table_count()));
+    for (int k = 0; k < width; ++k) rows[size]->evaluate(grid.wavelength_nm(first + k), part[k]);
+    float* out = values.data() + static_cast<std::size_t>(size) * angles.count() * count + first;
+    for (int i = 0; i < angles.count(); ++i, out += count)
+      for (int k = 0; k < width; ++k) out[k] = angles.value(part[k].data(), i);
   });
   return values;
 }
@@ -82,7 +104,8 @@ std::vector<float> evaluate_all(const Interpolations& rows, const WavelengthGrid
 SphereTable::SphereTable(const ScatteringTable& table, const SphereTableOptions& options)
     : size_count_(static_cast<int>(table.size_um.size())) {
   assert(size_count_ >= 1 && !table.wavelength_nm.empty());
-  set_angles(table.scattering_angle_deg);
+  const Angles angle_nodes(table.scattering_angle_deg);
+  set_angles(angle_nodes.deg);
   const int angles = angle_count();
   Interpolations rows(size_count_);
   tbb::parallel_for(0, size_count_, [&](int size) {
@@ -106,7 +129,7 @@ SphereTable::SphereTable(const ScatteringTable& table, const SphereTableOptions&
   }
   assert(count >= 2);
   plain_.grid = grid_over(table, count);
-  plain_.values = evaluate_all(rows, plain_.grid, angles);
+  plain_.values = evaluate_all(rows, plain_.grid, angle_nodes);
   normalise(plain_);
 
   const std::size_t draw_rows = static_cast<std::size_t>(size_count_) * count;
@@ -116,45 +139,49 @@ SphereTable::SphereTable(const ScatteringTable& table, const SphereTableOptions&
 
   if (sunlit) {
     sunlit_.grid = grid_over(table, std::min(count, most_sunlit_nodes));
-    const DiscConvolution mean_over_disc(table.scattering_angle_deg,
+    const DiscConvolution mean_over_disc(angle_nodes.deg,
                                          DiscProfile(options.sun_angular_radius_rad));
-    sunlit_.values = mean_over_disc.apply(evaluate_all(rows, sunlit_.grid, angles), size_count_,
-                                          sunlit_.grid);
+    const LargeVector<float> point_sun = evaluate_all(rows, sunlit_.grid, angle_nodes);
+    sunlit_.values.resize(point_sun.size());
+    mean_over_disc.apply(point_sun, size_count_, sunlit_.grid, sunlit_.values);
     // The mean over the disc keeps the integral, and its linear interpolant does so only nearly.
     normalise(sunlit_);
   }
 }
 
 void SphereTable::set_angles(const std::vector<double>& angle_deg) {
-  assert(angle_deg.size() >= 2 && angle_deg.size() < 65536);
+  assert(angle_deg.size() >= 3 && angle_deg.size() < 65536);
   assert(angle_deg.front() == 0 && angle_deg.back() == 180);
-  for (const double deg : angle_deg) {
-    const HalfAngle angle = half_angle_of_rad(radians(deg));
-    nodes_.push_back({angle.sin2, angle.cos2, 0, 0});
+  for (const double deg : angle_deg)
+    angles_.push_back(deg == 0     ? HalfAngle{0, 1}
+                      : deg == 90  ? HalfAngle{0.5, 0.5}
+                      : deg == 180 ? HalfAngle{1, 0}
+                                   : half_angle_of_rad(radians(deg)));
+  int behind = 0;  // the first interval beyond 90°
+  for (std::size_t i = 0; i + 1 < angles_.size(); ++i) {
+    const HalfAngle a = angles_[i], b = angles_[i + 1];
+    const bool forward = angle_deg[i] < 90;
+    behind += forward;
+    const double low = forward ? a.sin2 : -a.cos2, high = forward ? b.sin2 : -b.cos2;
+    assert(high > low);
+    intervals_.push_back({low, high, 1 / (high - low)});
   }
-  nodes_.front() = {0, 1, 0, 0};
-  nodes_.back() = {1, 0, 0, 0};
-  const int last = angle_count() - 1;
-  for (int i = 0; i < last; ++i) {
-    nodes_[i].width = nodes_[i].sin2 < 0.5 ? nodes_[i + 1].sin2 - nodes_[i].sin2
-                                           : nodes_[i].cos2 - nodes_[i + 1].cos2;
-    assert(nodes_[i].width > 0);
-    nodes_[i].per_width = 1 / nodes_[i].width;
-  }
-  // Guides begin a hundredth of a cell early, because cells are computed in single precision.
-  forward_guide_.resize(angle_cells + 1);
-  backward_guide_.resize(angle_cells + 1);
+  // A little above every key, so that the search for straight back ends here.
+  intervals_.back().high = std::numeric_limits<double>::min();
+
+  // Cells begin a hundredth early, because they are computed in single precision.
+  angle_guide_.resize(2 * angle_cells);
   int node = 0;
-  for (int cell = 0; cell <= angle_cells; ++cell) {
+  for (int cell = 0; cell < angle_cells; ++cell) {
     const double sine = std::fmax(0.0, (cell - 0.01) / cells_per_sine);
-    while (node + 1 < last && nodes_[node + 1].sin2 <= sine * sine) ++node;
-    forward_guide_[cell] = static_cast<std::uint16_t>(node);
+    while (intervals_[node].high <= sine * sine && node + 1 < behind) ++node;
+    angle_guide_[cell] = static_cast<std::uint16_t>(node);
   }
-  node = 0;
-  for (int cell = angle_cells; cell >= 0; --cell) {
-    const double cosine = (cell + 1.01) / cells_per_sine;
-    while (node + 1 < last && nodes_[node + 1].cos2 >= cosine * cosine) ++node;
-    backward_guide_[cell] = static_cast<std::uint16_t>(node);
+  node = behind;
+  for (int cell = angle_cells; cell < 2 * angle_cells; ++cell) {
+    const double cosine = (2 * angle_cells - cell + 0.01) / cells_per_sine;
+    while (intervals_[node].high <= -cosine * cosine) ++node;
+    angle_guide_[cell] = static_cast<std::uint16_t>(node);
   }
 }
 
@@ -166,7 +193,7 @@ void SphereTable::normalise(Layer& layer) const {
       const float* lower = layer.values.data() + row(layer.grid, size, i);
       const float* upper = lower + count;
       // dΩ = 4π ds; exact for a value linear in s.
-      const double weight = 2 * pi * nodes_[i].width;
+      const double weight = 2 * pi * intervals_[i].width();
       for (int k = 0; k < count; ++k)
         scale[k] += weight * (static_cast<double>(lower[k]) + upper[k]);
     }
@@ -188,7 +215,7 @@ void SphereTable::make_cumulative(int size) {
     const double* before = sums.data() + static_cast<std::size_t>(i) * count;
     double* after = sums.data() + static_cast<std::size_t>(i + 1) * count;
     for (int k = 0; k < count; ++k)
-      after[k] = before[k] + nodes_[i].width * (static_cast<double>(lower[k]) + upper[k]);
+      after[k] = before[k] + intervals_[i].width() * (static_cast<double>(lower[k]) + upper[k]);
   }
   const double* totals = sums.data() + static_cast<std::size_t>(angles - 1) * count;
   for (int k = 0; k < count; ++k) {

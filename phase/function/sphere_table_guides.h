@@ -7,13 +7,14 @@
 
 namespace arcus::phase {
 
-/// Cells of an angle guide: uniform in sin(θ/2) from 0 to 90°, about 0.02° each; the same in cos(θ/2)
-/// from 180° down. cells_per_sine is a little below angle_cells·√2, so that 90° falls into the last.
+/// Cells of the angle guide: uniform in sin(θ/2) from 0 to 90°, about 0.02° each, then uniform in
+/// cos(θ/2) to 180°. cells_per_sine is a little below angle_cells·√2, so that 90° falls into the last
+/// cell of its side.
 inline constexpr int angle_cells = 4096;
 inline constexpr float cells_per_sine = 5792.5f;
 
-/// The cell of sin²(θ/2) ≤ 1/2, or of cos²(θ/2).
-inline int angle_cell(double half_squared) {
+/// Number of a cell from its side's end: of sin²(θ/2) or cos²(θ/2), at most 1/2.
+inline int cell_from_end(double half_squared) {
   return static_cast<int>(std::sqrt(static_cast<float>(half_squared)) * cells_per_sine);
 }
 

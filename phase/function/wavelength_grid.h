@@ -2,8 +2,11 @@
 // The wavelengths at which the renderer's tables hold their values: nodes uniform in 1/wavelength². Dispersion moves
 // the bows of drops by equal steps on it, nearly: 0.1° per 10 nm in the violet, 0.03° in the red.
 
-#include <algorithm>
 #include <cmath>
+#include <cstring>
+
+#include "phase/base/spectrum.h"
+#include "phase/base/wavelengths.h"
 
 namespace arcus::phase {
 
@@ -20,10 +23,15 @@ class WavelengthGrid {
   double wavelength_nm(double position) const {
     return 1 / std::sqrt(first_ + (last_ - first_) * position / (count_ - 1));
   }
-  /// Position between the nodes, 0 to count − 1; wavelengths beyond the grid are taken at its ends.
-  float position(float wavelength_nm) const {
-    const float x = (static_cast<float>(first_) - 1 / (wavelength_nm * wavelength_nm)) * per_step_;
-    return std::min(std::max(x, 0.0f), static_cast<float>(count_ - 1));
+  /// Positions between the nodes, 0 to count − 1; wavelengths beyond the grid are taken at its ends.
+  Spectrum positions(const Wavelengths& wavelengths) const {
+    Spectrum nm;
+    std::memcpy(&nm.lanes, wavelengths.nm.data(), sizeof nm.lanes);
+    const Spectrum none, last = Spectrum::filled(static_cast<float>(count_ - 1));
+    const auto x = (Spectrum::filled(static_cast<float>(first_)) -
+                    Spectrum::filled(1) / (nm * nm)).lanes * per_step_;
+    const auto above = x > none.lanes ? x : none.lanes;
+    return above < last.lanes ? above : last.lanes;
   }
 
  private:

@@ -96,7 +96,9 @@ void WavelengthInterpolation::evaluate(double wavelength_nm, std::span<float> p1
 
   std::vector<double> sum(angles, 0.0);
   std::vector<FeatureTracks::Mover> movers(tracks_.anything_moves() ? angles : 0);
-  if (tracks_.anything_moves()) tracks_.movers(wavelength_nm, movers);
+  if (tracks_.anything_moves())
+    tracks_.movers(wavelength_nm, wavelength_nm_[stencil.first],
+                   wavelength_nm_[stencil.first + stencil.count - 1], movers);
   for (int j = 0; j < stencil.count; ++j) {
     const int node = stencil.first + j;
     const float* logs = logs_.data() + static_cast<std::size_t>(node) * angles;

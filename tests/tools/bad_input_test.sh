@@ -4,7 +4,7 @@
 ARCUS=$1
 source "$(dirname "${BASH_SOURCE[0]}")/shell_kit.sh"
 
-must "$ARCUS" author box --optical-depth 1 -o box.vdb
+must "$ARCUS" author box --optical-depth 1 --phase-type isotropic -o box.vdb
 scene() {  # scene FILE TEXT...: a small scene with lines added
   local file=$1
   shift

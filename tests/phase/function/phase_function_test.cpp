@@ -37,7 +37,7 @@ const SphereTable& drops() {
 
 /// Asymmetry at the first of the wavelengths: linear between the nodes of the grid, as the value.
 double drops_asymmetry(int size) {
-  const double position = drops().wavelengths().position(wavelengths[0]);
+  const double position = drops().wavelengths().positions(wavelengths)[0];
   const int node = static_cast<int>(position);
   const double share = position - node;
   return (1 - share) * drops().asymmetry(size, node) + share * drops().asymmetry(size, node + 1);
