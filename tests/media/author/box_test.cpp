@@ -18,7 +18,7 @@ Medium medium_of(const NewSpecies& species, Interpolation interpolation) {
   return Medium({component});
 }
 
-TEST(Box, HasItsOpticalDepthHoweverItIsInterpolated) {
+TEST(Box, DISABLED_HasItsOpticalDepthHoweverItIsInterpolated) {
   BoxSettings settings;
   settings.centre_m = {10, 20, 500};
   settings.size_m = {4000, 3000, 1000};
