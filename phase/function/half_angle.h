@@ -13,14 +13,13 @@ namespace arcus::phase {
 
 struct HalfAngle {
   double sin2 = 0;  ///< sin²(θ/2): 0 straight on, 1 backwards
-  double cos2 = 1;  ///< 1 − sin2
+  double cos2 = 1;  ///< 1 − sin2, up to rounding
   double cosine() const { return cos2 - sin2; }
 };
 
 /// The angle between two unit vectors.
 inline HalfAngle half_angle_between(const Vec3& a, const Vec3& b) {
-  const double sin2 = 0.25 * squared_length(a - b), cos2 = 0.25 * squared_length(a + b);
-  return sin2 < cos2 ? HalfAngle{sin2, 1 - sin2} : HalfAngle{1 - cos2, cos2};
+  return {0.25 * squared_length(a - b), 0.25 * squared_length(a + b)};
 }
 
 inline HalfAngle half_angle_of_rad(double angle_rad) {

@@ -1,5 +1,7 @@
 #include "phase/function/sphere_table.h"
 
+#include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <cstring>
@@ -43,10 +45,11 @@ inline Neighbours neighbours(const float* values, const int* places) {
 
 SphereTable::Place SphereTable::place_of(const HalfAngle& angle) const {
   // Written so that no jump depends on the angle, but for the rare walk over more than two nodes.
-  const bool forward = angle.sin2 < angle.cos2;
-  const int from_end = cell_from_end(forward ? angle.sin2 : angle.cos2);
-  const double key = forward ? angle.sin2 : -angle.cos2;
-  int node = angle_guide_[forward ? from_end : 2 * angle_cells - 1 - from_end];
+  constexpr double almost_half = 0.5 - 0x1p-54;  // rounding must not lift a key beyond its side
+  const double half = std::min(std::min(angle.sin2, angle.cos2), almost_half);
+  const double key = -std::copysign(half, angle.sin2 - angle.cos2);
+  const auto backward = static_cast<int>(std::bit_cast<std::int64_t>(key) >> 63);  // 0 or −1
+  int node = angle_guide_[cell_from_end(half) ^ (backward & (2 * angle_cells - 1))];
   node += key >= intervals_[node].high;
   node += key >= intervals_[node].high;
   while (key >= intervals_[node].high) ++node;
