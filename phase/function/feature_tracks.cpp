@@ -141,13 +141,14 @@ double fade(double x, double range) {
   return 1 / (1 + square * square);
 }
 
-/// From 0 to 1 around 0.
-double step(double x) { return 0.5 * (1 + x / std::sqrt(1 + x * x)); }
+/// From 0 at −1 to 1 at 1, smoothly.
+double step(double x) {
+  const double t = std::clamp(0.5 * (x + 1), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
 
 /// Reach of a bow's supernumeraries in Airy's units and at most in degrees; of the rings in x sin θ.
 constexpr double bow_range_units = 25, bow_range_deg = 20, ring_range = 25;
-/// What moves with a bow in the dark band [deg].
-constexpr double faint_range_deg = 2;
 
 }  // namespace
 
@@ -198,23 +199,34 @@ void FeatureTracks::movers(double wavelength_nm, double low_nm, double high_nm,
   const double second_range = std::fmin(bow_range_units * second_unit, bow_range_deg);
   const double top = primary_.found ? primary_.at_nm(wavelength_nm) : 0;
   const double second_top = secondary_.found ? secondary_.at_nm(wavelength_nm) : 0;
-  // The foot of the first bow reaches 4 units into the dark; two bows share the dark between them.
-  const double border = secondary_.found ? 0.5 * (top + second_top) : top - 4 * unit - 2;
-  const double border_width = secondary_.found ? (top - second_top) / 16 : 0.5 * unit + 0.5;
   const bool faint = faint_.found && low_nm >= faint_.first_nm && high_nm <= faint_.last_nm;
   const double faint_top = faint ? faint_.at_nm(wavelength_nm) : 0;
+  // Where the first bow's foot begins, and where the second bow's ends; two bows share the dark
+  // between them. Of the faint bow only the top goes its own way: its supernumeraries overlap the
+  // first bow's foot, and where two bows overlap the stronger one is followed.
+  double border = top - 4 * unit - 2, border_width = unit + 1;
+  double second_border = -360, second_border_width = 1;
+  if (faint) {
+    border = faint_top + 0.6;
+    border_width = 0.6;
+    second_border = 0.5 * (second_top + 3 * second_unit + faint_top);
+    second_border_width = std::fmax(0.3, 0.5 * (faint_top - second_top) - 1.5 * second_unit);
+  } else if (secondary_.found) {
+    border = 0.5 * (top + second_top);
+    border_width = (top - second_top) / 4;
+  }
   for (std::size_t i = 0; i < angle_deg_.size(); ++i) {
     const double angle = angle_deg_[i];
     const double back = fade(180 - angle, rings), front = rings_in_front_ ? fade(angle, rings) : 0;
-    Mover m{};
-    if (faint) m.faint = fade(angle - faint_top, faint_range_deg);
-    const double rest = (1 - back) * (1 - front) * (1 - m.faint);
+    const double rest = (1 - back) * (1 - front);
     const double behind = step((angle - border) / border_width);
-    if (primary_.found)
-      m.primary = rest * behind * fade(std::fmax(0.0, angle - top), range);
+    const double before = 1 - behind;
+    Mover m{};
+    if (primary_.found) m.primary = rest * behind * fade(std::fmax(0.0, angle - top), range);
+    if (faint) m.faint = rest * before * step((angle - second_border) / second_border_width);
     if (secondary_.found)
       m.secondary =
-          rest * (1 - behind) * fade(std::fmax(0.0, second_top - angle), second_range);
+          (rest * before - m.faint) * fade(std::fmax(0.0, second_top - angle), second_range);
     m.opening = m.primary * (angle - top) + m.secondary * (angle - second_top) +
                 m.faint * (angle - faint_top);
     m.ring = front * angle - back * (180 - angle);

@@ -91,7 +91,7 @@ std::vector<double> synthetic_angles_deg(int every) {
   add(110, 124, 0.025);
   add(124, 131, 0.01);
   add(131, 136, 0.05);
-  add(136, 143, 0.01);
+  add(136, 143, 0.007);
   add(143, 150, 0.025);
   add(150, 175, 0.05);
   add(175, 179.5, 0.02);
