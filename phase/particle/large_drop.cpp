@@ -149,7 +149,7 @@ void LargeDrop::set_turns(int order, const Direction& direction, OrderField& fie
       const double turned = side * direction.angle_rad;
       wave.turn =
           sphere_.size_parameter *
-          (grazing_rate + turned + 2 * pi * std::round((grazing_turned - turned) / (2 * pi)));
+          (grazing_rate + turned + 2 * pi * std::nearbyint((grazing_turned - turned) / (2 * pi)));
     }
 }
 

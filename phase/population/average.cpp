@@ -6,7 +6,6 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <string>
 
 #include "phase/base/error.h"
 #include "phase/base/units.h"
@@ -14,6 +13,7 @@
 #include "phase/particle/large_drop.h"
 #include "phase/particle/mie_block.h"
 #include "phase/population/radius_grid.h"
+#include "phase/settings/number_text.h"
 
 namespace arcus::phase {
 namespace {
@@ -22,8 +22,7 @@ namespace {
 /// where large drops are up to 8 % off (tests); fewer spheres with ripple are then needed for smooth sums.
 constexpr double border_size_parameter = 1000;
 constexpr double largest_wave_size_parameter = 1e5;  // of MieAngles
-/// Parts into which the radii of one wavelength are cut for threads. Fixed, so that sums have one order. For large drops a
-/// part begins with the rays to all angles, which take as long as a dozen sizes.
+/// Parts into which the radii of one wavelength are cut for threads. Fixed, so that sums have one order.
 constexpr std::size_t wave_parts = 8, large_parts = 2;
 
 /// Sums over radii for all size nodes.
@@ -122,9 +121,8 @@ void add_waves(const MieAngles& angles, std::complex<double> index, const Stretc
   }
 }
 
-void add_large(std::span<const double> angle_rad, std::complex<double> index, const Stretch& part, Sums& sums) {
-  LargeDrop drop(index, angle_rad);
-  const std::size_t angles = angle_rad.size();
+/// drop: its own copy, which is working memory.
+void add_large(LargeDrop drop, std::size_t angles, const Stretch& part, Sums& sums) {
   const double per_k2 = 1 / (part.x_per_um * part.x_per_um);
   for (std::size_t i = part.first; i < part.last; ++i) {
     const SphereIntensities sphere = drop.scatter(part.grid.radius_um[i] * part.x_per_um, part.grid.relative_step[i]);
@@ -155,7 +153,9 @@ void sum_in_parts(const RadiusGrid& grid, std::size_t parts, std::size_t multipl
                                      total.matrix.size() / matrix_elements / total.extinction.size());
     add(Stretch{grid, i * length, std::min(count, (i + 1) * length), x_per_um}, *sums[i]);
   });
-  for (const auto& part : sums) total.add(*part);
+  // A part is missing where work at another wavelength failed and cancelled this: its error is on the way.
+  for (const auto& part : sums)
+    if (part) total.add(*part);
 }
 
 std::vector<double> in_radians(const std::vector<double>& angle_deg) {
@@ -172,7 +172,7 @@ double largest_size_parameter(const std::vector<Sizes>& sizes, double wavelength
 
 MieAngles checked_angles(const std::vector<double>& angle_rad, double x) {
   if (x > largest_wave_size_parameter)
-    throw bad_input("size_um", "particles up to size parameter " + std::to_string(x), "must be at most 1e5",
+    throw bad_input("size_um", "particles up to size parameter " + number_text(std::round(x)), "must be at most 1e5",
                     "For this material, whose index is far from that of water, waves are summed for all sizes");
   return MieAngles(angle_rad, x);
 }
@@ -194,7 +194,15 @@ struct SphereAverage::Parts {
 
 SphereAverage::SphereAverage(std::vector<Sizes> sizes, std::vector<double> angle_deg, double shortest_wavelength_nm,
                              long long radii, bool may_use_rays)
-    : parts_(std::make_unique<const Parts>(std::move(sizes), angle_deg, shortest_wavelength_nm, radii, may_use_rays)) {}
+    : parts_(std::make_unique<const Parts>(std::move(sizes), angle_deg, shortest_wavelength_nm, radii, may_use_rays)) {
+  const double x = largest_size_parameter(parts_->sizes, shortest_wavelength_nm);
+  if (may_use_rays && x > LargeDrop::largest_size_parameter) {
+    const double largest_um = LargeDrop::largest_size_parameter / size_parameter(1, shortest_wavelength_nm);
+    throw bad_input("size_um", "a distribution with drops up to size parameter " + number_text(std::round(x)),
+                    "must be at most 2e5, a radius of " + number_text(std::round(largest_um)) + " um at the shortest wavelength",
+                    "Choose smaller size nodes or a narrower distribution; drops of rain break up before 4000 um");
+  }
+}
 SphereAverage::~SphereAverage() = default;
 
 bool SphereAverage::rays_serve(std::complex<double> m) {
@@ -209,8 +217,11 @@ PopulationMeans SphereAverage::means(double wavelength_nm, std::complex<double> 
   Sums sums(sizes, p.angle_rad.size());
   sum_in_parts(grids.wave, wave_parts, mie_block_radii, x_per_um,
                [&](const Stretch& part, Sums& to) { add_waves(p.angles, relative_index, part, to); }, sums);
-  sum_in_parts(grids.large, large_parts, 1, x_per_um,
-               [&](const Stretch& part, Sums& to) { add_large(p.angle_rad, relative_index, part, to); }, sums);
+  if (!grids.large.radius_um.empty()) {
+    const LargeDrop drop(relative_index, p.angle_rad);  // what depends on the angles alone takes as long as a dozen sizes
+    sum_in_parts(grids.large, large_parts, 1, x_per_um,
+                 [&](const Stretch& part, Sums& to) { add_large(drop, p.angle_rad.size(), part, to); }, sums);
+  }
   PopulationMeans means;
   means.matrix = std::move(sums.matrix);
   for (std::size_t size = 0; size < sizes; ++size) {

@@ -79,13 +79,27 @@ double bulk_at(std::span<const Bulk> bulks, double radius_um, double least) {
   return least;
 }
 
+/// Share of a population's own radii, as densely as waves need them, that lies below the border.
+double wave_share(const Bulk& bulk, double border_um, double um_per_x) {
+  const auto density = [&](double r) { return std::max(bulk.at(r), least_density) * (1 + r / um_per_x / even_from); };
+  const auto [low, high] = bulk.range();
+  if (high <= border_um) return 1;
+  if (low >= border_um) return 0;
+  return Axis(low, border_um, density).integral() / Axis(low, high, density).integral();
+}
+
 std::vector<double> wave_radii(std::span<const Bulk> bulks, double low_um, double high_um, double um_per_x,
                                long long count) {
   const Axis axis(low_um, high_um, [&](double r) {
     return bulk_at(bulks, r, least_density) * (1 + r / um_per_x / even_from);
   });
+  // Where the populations lie mostly beyond the border, their tails need no more radii than a whole population would spend
+  // on them.
+  double share = 0;
+  for (const Bulk& bulk : bulks) share = std::max(share, wave_share(bulk, high_um, um_per_x));
+  const auto enough = static_cast<long long>(std::ceil(share * static_cast<double>(count)));
   const double most = (high_um - low_um) / um_per_x / smallest_step;
-  return axis.cut(std::clamp<long long>(count, 2, std::max(16LL, static_cast<long long>(most))));
+  return axis.cut(std::clamp<long long>(enough, 2, std::max(16LL, static_cast<long long>(most))));
 }
 
 std::vector<double> large_radii(std::span<const Bulk> bulks, double low_um, double high_um, double step) {
@@ -114,9 +128,12 @@ RadiusGrids grids_of_single_radii(std::span<const Sizes> sizes, double border_um
   return grids;
 }
 
-void add_weights(const Sizes& sizes, RadiusGrid& grid) {
+/// Radii in the neglected tails of a population count nothing: most sums then meet few populations.
+void add_weights(const Sizes& sizes, const Sizes::Range& range, RadiusGrid& grid) {
   if (grid.radius_um.empty()) return;
-  const std::vector<double> weight = sizes.weights(grid.radius_um);
+  std::vector<double> weight = sizes.weights(grid.radius_um);
+  for (std::size_t i = 0; i < weight.size(); ++i)
+    if (grid.radius_um[i] < range.low_um * (1 - 1e-9) || grid.radius_um[i] > range.high_um * (1 + 1e-9)) weight[i] = 0;
   grid.weight.insert(grid.weight.end(), weight.begin(), weight.end());
 }
 
@@ -164,8 +181,8 @@ RadiusGrids radius_grids(std::span<const Sizes> sizes, double wavelength_nm, dou
   add_steps(grids.wave);
   add_steps(grids.large);
   for (std::size_t i = 0; i < sizes.size(); ++i) {
-    add_weights(sizes[i], grids.wave);
-    add_weights(sizes[i], grids.large);
+    add_weights(sizes[i], bulks[i].range(), grids.wave);
+    add_weights(sizes[i], bulks[i].range(), grids.large);
     const double share = (squared_radii(grids.wave, i) + squared_radii(grids.large, i)) / sizes[i].mean_power_um(2);
     scale(grids.wave, i, 1 / share);
     scale(grids.large, i, 1 / share);

@@ -24,7 +24,8 @@ struct RadiusGrids {
 };
 
 /// Grids for the populations of all size nodes at one wavelength, which join at a size parameter: waves below, large
-/// drops above. `radii`: how many spheres the wave grid has; they lie where any of the populations has its
+/// drops above. `radii`: how many spheres the wave grid has, or in proportion less where no population lies wholly below
+/// the border; they lie where any of the populations has its
 /// cross-section, in steps that grow with the size parameter at first and then stay even. A hundred-thousandth of the
 /// geometric cross-section is left out, and weights are scaled up for it. Populations of one radius each (all or
 /// none are) get that radius.
