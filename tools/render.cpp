@@ -24,8 +24,8 @@ struct RenderCommand {
   std::vector<std::string> overrides;
   long long samples = 0, seed = -1;
   int threads = 0;
-  double time_limit_s = 0;
-  bool no_png = false, quiet = false;
+  double time_limit_s = 0, checkpoint_s = 60;
+  bool no_png = false, quiet = false, resume = false;
 };
 
 render::PixelBox parsed_crop(const std::string& text, int width, int height) {
@@ -71,9 +71,10 @@ void run(const RenderCommand& command) {
   render::RunOptions options;
   options.threads = command.threads;
   options.time_limit_s = command.time_limit_s;
+  options.checkpoint_s = command.checkpoint_s;
   options.stop_request = &stop_request();
   if (!command.quiet) options.report = progress_report(command.progress);
-  const render::Picture picture = render_picture(settings, scene, crop, options);
+  const render::Picture picture = render_picture(settings, scene, crop, options, command.resume ? exr + ".checkpoint" : "");
   if (options.report) end_progress(command.progress);
 
   if (picture.refused.count > 0)
@@ -86,7 +87,9 @@ void run(const RenderCommand& command) {
   std::snprintf(line, sizeof line, "%s%s: %.1f s, %.2f million samples/s%s", exr.c_str(),
                 command.no_png ? "" : " and .png", picture.run.progress.seconds,
                 1e-6 * picture.run.progress.samples_per_second(),
-                picture.run.is_complete ? "" : ", stopped before it was done");
+                picture.run.is_complete ? ""
+                : command.resume        ? ", stopped before it was done; the same command goes on"
+                                        : ", stopped before it was done");
   say(line);
   if (stop_request() == SIGINT) throw Exit{exit_interrupted};
   if (stop_request() == SIGTERM) throw Exit{exit_terminated};
@@ -108,6 +111,10 @@ void add_render(CLI::App& program) {
   app->add_option("--crop", command->crop, "X0,Y0,X1,Y1: only these pixels, the last column and row excluded");
   app->add_option("--time-limit", command->time_limit_s, "stop after so many seconds with what is done")
       ->check(CLI::NonNegativeNumber);
+  app->add_flag("--resume", command->resume,
+                "go on from what an interrupted run with this option has left in OUT.exr.checkpoint, and leave one");
+  app->add_option("--checkpoint-seconds", command->checkpoint_s, "with --resume: how often the checkpoint is written")
+      ->check(CLI::PositiveNumber);
   app->add_flag("--no-png", command->no_png, "write the EXR alone");
   app->add_flag("--quiet", command->quiet, "say nothing but errors and warnings");
   app->add_option("--progress", command->progress, "auto | json | none")

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -83,20 +84,27 @@ Film::Film(int width_px, int height_px, PixelBox box, const FilmSettings& settin
       keeps_squares_(has(settings.channels, "variance")),
       keeps_bins_(has(settings.channels, "spectral")),
       sums_a_pixel_(sums_a_pixel_of(settings)),
-      sums_(allocated(box.pixels() * sums_a_pixel_,
-                      needed_bytes(static_cast<double>(box.pixels()), settings))),
-      counts_(box.pixels()) {}
+      sums_{allocated(box.pixels() * sums_a_pixel_,
+                      needed_bytes(static_cast<double>(box.pixels()), settings)),
+            std::vector<std::uint32_t>(box.pixels()), std::vector<std::uint32_t>(box.pixels())} {}
+
+void Film::set_sums(FilmSums sums) {
+  assert(sums.values.size() == sums_.values.size() && sums.samples.size() == sums_.samples.size() &&
+         sums.tried.size() == sums_.tried.size());
+  sums_ = std::move(sums);
+}
 
 double Film::needed_bytes(double pixels, const FilmSettings& settings) {
   return pixels *
-         static_cast<double>(sums_a_pixel_of(settings) * sizeof(double) + sizeof(std::uint32_t));
+         static_cast<double>(sums_a_pixel_of(settings) * sizeof(double) + 2 * sizeof(std::uint32_t));
 }
 
 void Film::add_sample(int x, int y, std::uint32_t sample, const Spectrum& radiance,
                       const Wavelengths& wavelengths) {
-  if (!std::isfinite(radiance.sum())) return refuse(x, y, sample);
   const std::size_t p = pixel(x, y);
-  double* sum = sums_.data() + p * sums_a_pixel_;
+  ++sums_.tried[p];
+  if (!std::isfinite(radiance.sum())) return refuse(x, y, sample);
+  double* sum = sums_.values.data() + p * sums_a_pixel_;
   const Xyz c = xyz_of_sample(radiance, wavelengths);
   sum[0] += c.x;
   sum[1] += c.y;
@@ -118,7 +126,7 @@ void Film::add_sample(int x, int y, std::uint32_t sample, const Spectrum& radian
       sum[bin] += radiance[i] / (wavelength_count * width_nm * wavelength_density_per_nm(nm));
     }
   }
-  ++counts_[p];
+  ++sums_.samples[p];
 }
 
 void Film::refuse(int x, int y, std::uint32_t sample) {
@@ -136,9 +144,9 @@ RefusedSamples Film::refused() const {
 
 Xyz Film::mean_xyz(int x, int y) const {
   const std::size_t p = pixel(x, y);
-  if (counts_[p] == 0) return {};
-  const double* sum = sums_.data() + p * sums_a_pixel_;
-  return Xyz{sum[0], sum[1], sum[2]} * (1.0 / counts_[p]);
+  if (sums_.samples[p] == 0) return {};
+  const double* sum = sums_.values.data() + p * sums_a_pixel_;
+  return Xyz{sum[0], sum[1], sum[2]} * (1.0 / sums_.samples[p]);
 }
 
 Image Film::to_image() const { return filled(settings_.channels); }
@@ -171,8 +179,8 @@ Image Film::filled(const std::vector<std::string>& channels) const {
         for (const double v : {mean.r, mean.g, mean.b}) put(v);
       if (xyz)
         for (const double v : {c.x, c.y, c.z}) put(v);
-      const double count = counts_[pixel(x, y)];
-      const double* more = sums_.data() + pixel(x, y) * sums_a_pixel_ + colour_sums;
+      const double count = sums_.samples[pixel(x, y)];
+      const double* more = sums_.values.data() + pixel(x, y) * sums_a_pixel_ + colour_sums;
       if (variance) {
         const double means[] = {mean.r, mean.g, mean.b};
         for (std::size_t i = 0; i < 3; ++i)

@@ -31,6 +31,13 @@ struct RefusedSamples {
   std::uint32_t sample = 0;  ///< the first sample there
 };
 
+/// What a film keeps.
+struct FilmSums {
+  std::vector<double> values;          ///< [pixel][X Y Z, then R2 G2 B2 if kept, then bins if kept]
+  std::vector<std::uint32_t> samples;  ///< [pixel] samples in the sums
+  std::vector<std::uint32_t> tried;    ///< [pixel] and with those that were refused
+};
+
 class Film {
  public:
   /// An empty film of the pixels in `box`, part of a picture of width_px x height_px. Throws
@@ -49,7 +56,9 @@ class Film {
   int height_px() const { return height_px_; }
   const PixelBox& box() const { return box_; }
   /// Samples of a pixel so far, refused ones not included.
-  std::uint32_t samples(int x, int y) const { return counts_[pixel(x, y)]; }
+  std::uint32_t samples(int x, int y) const { return sums_.samples[pixel(x, y)]; }
+  /// Number of the next sample that a pixel waits for: those before it have been added or refused.
+  std::uint32_t next_sample(int x, int y) const { return sums_.tried[pixel(x, y)]; }
   RefusedSamples refused() const;
   /// Mean so far; black where there is no sample yet.
   Xyz mean_xyz(int x, int y) const;
@@ -68,6 +77,10 @@ class Film {
   /// The picture so far with R, G, B alone.
   Image rgb_image() const;
 
+  /// All that is kept; set_sums takes what a film of the same box and channels had.
+  const FilmSums& sums() const { return sums_; }
+  void set_sums(FilmSums sums);
+
   /// Memory that a film of so many pixels takes.
   static double needed_bytes(double pixels, const FilmSettings& settings);
 
@@ -85,8 +98,7 @@ class Film {
   ToRgb to_rgb_;
   bool keeps_squares_, keeps_bins_;
   std::size_t sums_a_pixel_;
-  std::vector<double> sums_;  ///< [pixel][X Y Z, then R2 G2 B2 if kept, then bins if kept]
-  std::vector<std::uint32_t> counts_;
+  FilmSums sums_;
   mutable std::mutex refused_mutex_;
   RefusedSamples refused_;
 };

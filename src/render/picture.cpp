@@ -1,31 +1,42 @@
 #include "src/render/picture.h"
 
+#include <filesystem>
+
 #include "phase/base/content_hash.h"
 #include "phase/base/version.h"
 #include "phase/settings/toml_text.h"
+#include "src/film/film_file.h"
+#include "src/scene/fingerprint.h"
 #include "src/scene/picture_metadata.h"
 
 namespace arcus::render {
 
 Picture render_picture(const SceneSettings& settings, const Scene& scene, std::optional<PixelBox> crop,
-                       const RunOptions& options) {
+                       RunOptions options, const std::string& checkpoint_file) {
   const CameraSettings& camera = settings.camera;
   const PixelBox box = crop.value_or(PixelBox{0, 0, camera.width_px, camera.height_px});
   const Xyz sun = xyz_of([&](double nm) { return scene.sun.irradiance_curve()(nm); });
   const ToRgb to_rgb = to_rgb_from_white(white_of(settings.film.white, sun));
   Film film(camera.width_px, camera.height_px, box, settings.film, to_rgb);
 
+  MakingOf making;
+  making.version = version;
+  making.scene_text = text_of(settings);
+  making.scene_hash = content_hash(making.scene_text);
+
+  if (!checkpoint_file.empty()) {
+    const std::string fingerprint = scene_fingerprint(settings);
+    if (std::filesystem::exists(checkpoint_file)) read_film(checkpoint_file, fingerprint, film);
+    options.checkpoint = [&checkpoint_file, fingerprint](const Film& now) { write_film(checkpoint_file, now, fingerprint); };
+  }
   Picture picture;
   picture.run = render(scene, settings.render, options, film);
+  if (!checkpoint_file.empty() && picture.run.is_complete) std::filesystem::remove(checkpoint_file);
   picture.image = film.to_image();
   picture.refused = film.refused();
   // Under no sun a matte surface under the sky of radiance 1 is the reference.
   picture.tone = {settings.film.exposure_ev, sun.y > 0 ? sun.y / pi : 1};
 
-  MakingOf making;
-  making.version = version;
-  making.scene_text = text_of(settings);
-  making.scene_hash = content_hash(making.scene_text);
   making.seed = static_cast<std::uint64_t>(settings.render.seed);
   making.samples_per_pixel = picture.run.progress.samples_done / static_cast<double>(box.pixels());
   making.render_seconds = picture.run.progress.seconds;

@@ -2,6 +2,7 @@
 // From a scene's settings to the finished picture with its metadata.
 
 #include <optional>
+#include <string>
 
 #include "src/film/image.h"
 #include "src/film/tone.h"
@@ -18,8 +19,10 @@ struct Picture {
   RefusedSamples refused;
 };
 
-/// Renders `crop` of the scene, or all of it. A run that is stopped gives what is done.
+/// Renders `crop` of the scene, or all of it. A run that is stopped gives what is done. With the name of a checkpoint file it goes
+/// on from that, where there is one, writes it every RunOptions::checkpoint_s and when stopped, and deletes it when all is done.
+/// Throws Fault::mismatch where the file is of another scene, Fault::incomplete where it is damaged.
 Picture render_picture(const SceneSettings& settings, const Scene& scene, std::optional<PixelBox> crop,
-                       const RunOptions& options);
+                       RunOptions options, const std::string& checkpoint_file = "");
 
 }  // namespace arcus::render

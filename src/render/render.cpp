@@ -59,10 +59,14 @@ RunResult render(const Scene& scene, const RenderSettings& settings, const RunOp
   const int blocks_x = (area.width() + block_size - 1) / block_size;
   const int blocks_y = (area.height() + block_size - 1) / block_size;
 
-  std::atomic<long long> samples_done{0};
-  std::atomic<bool> is_stopped{false};
+  long long samples_before = 0;
+  for (int y = area.y0; y < area.y1; ++y)
+    for (int x = area.x0; x < area.x1; ++x) samples_before += film.next_sample(x, y);
+  std::atomic<long long> samples_done{samples_before};
+  std::atomic<bool> is_stopped{false}, is_paused{false};
+  double last_checkpoint_s = 0;
   const auto progress = [&] {
-    return Progress{seconds_since_begin(), static_cast<double>(samples_done.load()),
+    return Progress{seconds_since_begin(), static_cast<double>(samples_before), static_cast<double>(samples_done.load()),
                     static_cast<double>(settings.samples_per_pixel) * area.width() * area.height()};
   };
   const auto must_stop = [&] {
@@ -70,7 +74,13 @@ RunResult render(const Scene& scene, const RenderSettings& settings, const RunOp
     return options.time_limit_s > 0 && seconds_since_begin() >= options.time_limit_s;
   };
 
-  const auto render_pixel = [&](int x, int y, long long first, long long last) {
+  const auto checkpoint_is_due = [&] {
+    return options.checkpoint && seconds_since_begin() - last_checkpoint_s >= options.checkpoint_s;
+  };
+
+  /// Up to the sample `last`, not included; returns how many.
+  const auto render_pixel = [&](int x, int y, long long last) {
+    const long long first = film.next_sample(x, y);
     const auto pixel = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(film.width_px()) +
                        static_cast<std::uint64_t>(x);
     for (long long i = first; i < last; ++i) {
@@ -82,6 +92,7 @@ RunResult render(const Scene& scene, const RenderSettings& settings, const RunOp
       const Spectrum radiance = ray ? integrator.radiance(*ray, wavelengths, numbers, random) : Spectrum();
       film.add_sample(x, y, sample, radiance, wavelengths);
     }
+    return std::max(last - first, 0LL);
   };
 
   RunResult result;
@@ -100,15 +111,27 @@ RunResult render(const Scene& scene, const RenderSettings& settings, const RunOp
             is_stopped = true;
             return;
           }
+          if (is_paused || checkpoint_is_due()) {
+            is_paused = true;
+            return;
+          }
           const int left = area.x0 + block % blocks_x * block_size, top = area.y0 + block / blocks_x * block_size;
           const int right = std::min(left + block_size, area.x1), bottom = std::min(top + block_size, area.y1);
+          long long samples = 0;
           for (int y = top; y < bottom; ++y)
-            for (int x = left; x < right; ++x) render_pixel(x, y, done, done + pass);
-          samples_done += pass * (right - left) * (bottom - top);
+            for (int x = left; x < right; ++x) samples += render_pixel(x, y, done + pass);
+          samples_done += samples;
         });
       });
-      done += pass;
+      if (is_paused && !is_stopped) {  // then the same pass again: pixels that have had it are passed over
+        options.checkpoint(film);
+        last_checkpoint_s = seconds_since_begin();
+        is_paused = false;
+      } else {
+        done += pass;
+      }
     }
+    if (is_stopped && options.checkpoint) options.checkpoint(film);
   }
   result.progress = progress();
   result.is_complete = result.progress.samples_done == result.progress.samples_in_all;

@@ -14,12 +14,14 @@ namespace arcus::render {
 
 /// How far a rendering is.
 struct Progress {
-  double seconds = 0;           ///< since the beginning
-  double samples_done = 0;      ///< paths
+  double seconds = 0;           ///< since the beginning of this run
+  double samples_before = 0;    ///< paths that the film had from an earlier run
+  double samples_done = 0;      ///< paths, with those
   double samples_in_all = 0;    ///< paths
-  double samples_per_second() const { return seconds > 0 ? samples_done / seconds : 0; }
+  double samples_per_second() const { return seconds > 0 ? (samples_done - samples_before) / seconds : 0; }
   double seconds_left() const {
-    return samples_done > 0 ? seconds * (samples_in_all - samples_done) / samples_done : 0;
+    const double rate = samples_per_second();
+    return rate > 0 ? (samples_in_all - samples_done) / rate : 0;
   }
 };
 
@@ -29,6 +31,9 @@ struct RunOptions {
   double time_limit_s = 0;     ///< 0: none
   const std::atomic<int>* stop_request = nullptr;      ///< rendering ends soon after it becomes non-zero
   std::function<void(const Progress&)> report;         ///< called about five times a second from another thread
+  /// Called every so many seconds, and at the end of a run that is stopped, while nothing is added to the film.
+  std::function<void(const Film&)> checkpoint;
+  double checkpoint_s = 60;
 };
 
 /// What came of it.
@@ -37,7 +42,7 @@ struct RunResult {
   Progress progress;
 };
 
-/// Renders the film's pixels.
+/// Renders the film's pixels; goes on where the film is not empty.
 RunResult render(const Scene& scene, const RenderSettings& settings, const RunOptions& options, Film& film);
 
 }  // namespace arcus::render

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
+#include "phase/base/error.h"
 #include "phase/settings/toml_text.h"
 #include "src/render/picture.h"
 #include "tests/src/integrator/slab.h"
@@ -34,9 +38,17 @@ Scene small_scene(const SceneSettings& settings) {
                .camera = make_camera(settings.camera)};
 }
 
-Picture picture(const SceneSettings& settings, const RunOptions& options, std::optional<PixelBox> crop = {}) {
-  return render_picture(settings, small_scene(settings), crop, options);
+Picture picture(const SceneSettings& settings, const RunOptions& options, std::optional<PixelBox> crop = {},
+                const std::string& checkpoint_file = "") {
+  return render_picture(settings, small_scene(settings), crop, options, checkpoint_file);
 }
+
+/// A name for a file that is not there yet, and is gone after the test.
+struct TemporaryName {
+  std::string path = testing::TempDir() + "arcus_" + testing::UnitTest::GetInstance()->current_test_info()->name();
+  TemporaryName() { std::filesystem::remove(path); }
+  ~TemporaryName() { std::filesystem::remove(path); }
+};
 
 }  // namespace
 
@@ -76,6 +88,45 @@ TEST(Render, StoppedRenderingKeepsWhatIsDone) {
   const Picture none = picture(settings, {.stop_request = &now});
   EXPECT_EQ(none.run.progress.samples_done, 0);
   for (const float value : none.image.values()) EXPECT_EQ(value, 0);
+}
+
+TEST(Render, StoppedOftenAndResumedGivesTheSameBits) {
+  SceneSettings settings = small_settings();
+  settings.render.samples_per_pixel = 200;
+  const Picture whole = picture(settings, {});
+  const TemporaryName file;
+  int runs = 0;
+  Picture last;
+  do {
+    last = picture(settings, {.threads = 1 + runs % 3, .time_limit_s = 0.02, .checkpoint_s = 0.005}, {}, file.path);
+    EXPECT_EQ(std::filesystem::exists(file.path), !last.run.is_complete);
+  } while (!last.run.is_complete && ++runs < 1000);
+  EXPECT_GE(runs, 3);
+  EXPECT_TRUE(last.run.is_complete);
+  EXPECT_EQ(last.image.values(), whole.image.values());
+}
+
+TEST(Render, CheckpointsOfOtherScenesOrDamagedOnesAreRefused) {
+  SceneSettings settings = small_settings();
+  settings.render.samples_per_pixel = 1000000;
+  const TemporaryName file;
+  picture(settings, {.time_limit_s = 0.05}, {}, file.path);
+  const auto fault = [&] {
+    try {
+      picture(settings, {.time_limit_s = 0.05}, {}, file.path);
+    } catch (const Error& error) {
+      return static_cast<int>(error.fault());
+    }
+    return 0;
+  };
+  settings.render.seed = 7;
+  EXPECT_EQ(fault(), static_cast<int>(Fault::mismatch));
+  settings.render.seed = 1;
+  EXPECT_EQ(fault(), 0);
+  std::fstream(file.path, std::ios::in | std::ios::out | std::ios::binary).seekp(-3, std::ios::end).put('x');
+  EXPECT_EQ(fault(), static_cast<int>(Fault::incomplete));
+  std::filesystem::resize_file(file.path, 500);
+  EXPECT_EQ(fault(), static_cast<int>(Fault::incomplete));
 }
 
 TEST(Render, PictureKnowsItsMaking) {
