@@ -9,8 +9,9 @@
 
 namespace arcus::media {
 
-/// Unbiased estimate of the transmittance along a ray at each wavelength: ratio tracking (Novák et al. 2014), with
-/// roulette where little is left. Each value is ≥ 0, its mean is exp(−optical depth); roulette may let single values
+/// Unbiased estimate of the transmittance along a ray at each wavelength: residual ratio tracking (Novák, Selle and Jarosz,
+/// "Residual Ratio Tracking for Estimating Attenuation in Participating Media", SIGGRAPH Asia 2014). The smallest extinction of every
+/// cell dims the ray by an exponential; only what lies above it is tracked. Roulette where little is left. Each value is ≥ 0, its mean is exp(−optical depth); roulette may let single values
 /// exceed 1 slightly.
 Spectrum ratio_transmittance(const Medium&, const Ray&, const Wavelengths&, Random&);
 

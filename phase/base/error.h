@@ -1,6 +1,6 @@
 #pragma once
 // The one exception type. Its text says where, what was found, what was expected and what to do; its fault
-// becomes the exit code of the program (docs: exit codes).
+// becomes the exit code of the program (tools/README.md, Exit codes).
 
 #include <span>
 #include <stdexcept>

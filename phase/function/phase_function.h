@@ -50,6 +50,12 @@ class PhaseFunction {
   /// A direction drawn as the first of the wavelengths would: its density there is value()[0].
   Draw draw(const Vec3& incoming, const Wavelengths& wavelengths, Random& random) const;
 
+  /// Whether a narrow part of the sphere may get most of the light, so that it pays to look there on purpose.
+  bool is_peaked() const {
+    if (const auto* function = std::get_if<HenyeyGreenstein>(&kind_)) return function->asymmetry() > 0.5;
+    return std::holds_alternative<SphereLobe>(kind_);
+  }
+
   /// Density of draw in a direction, had each wavelength led it [1/sr].
   Spectrum density(const Vec3& incoming, const Vec3& outgoing, const Wavelengths& wavelengths) const {
     return value(incoming, outgoing, wavelengths);

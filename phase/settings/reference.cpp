@@ -47,8 +47,15 @@ std::string number_list(const std::vector<double>& values) {
 
 class Page : public Documenter {
  public:
-  explicit Page(std::string_view title) : text_("# " + std::string(title) + "\n") {}
-  std::string text() const { return text_; }
+  explicit Page(std::string_view title) : title_(title) {}
+  std::string text() const {
+    std::string text = "# " + title_ + "\n";
+    for (const Section& section : sections_) {
+      if (!section.heading.empty()) text += "\n## " + section.heading + "\n\n" + section.meaning + "\n";
+      if (!section.rows.empty()) text += "\n| key | default | allowed | meaning |\n| --- | --- | --- | --- |\n" + section.rows;
+    }
+    return text;
+  }
 
   void number(std::string_view name, double& value, const Range& range, std::string_view meaning) override {
     row(name, number_text(value), range.words(), meaning);
@@ -97,48 +104,50 @@ class Page : public Documenter {
 
  protected:
   bool begin_table(std::string_view name, std::string_view meaning) override {
-    heading("[" + path_ + std::string(name) + "]", meaning);
-    push(name);
+    open("`[" + path_ + std::string(name) + "]`", name, meaning);
     return true;
   }
   bool begin_word_or_table(std::string_view name, std::string& word, std::string_view meaning) override {
-    heading(path_ + std::string(name) + " = \"" + (word.empty() ? "..." : word) + "\" or a table", meaning);
-    push(name);
+    open("`" + path_ + std::string(name) + "`, " + (word.empty() ? "a text" : "`\"" + word + "\"`") + " or a table", name, meaning);
     return true;
   }
   std::size_t begin_tables(std::string_view name, std::size_t, std::string_view meaning) override {
-    heading("[[" + path_ + std::string(name) + "]], any number of them", meaning);
+    open("`[[" + path_ + std::string(name) + "]]`, any number of them", name, meaning);
     return 0;
   }
-  void begin_entry(std::string_view name, std::size_t) override { push(name); }
+  void begin_entry(std::string_view, std::size_t) override {}
   void end_table() override {
-    path_ = paths_.back();
-    paths_.pop_back();
-    in_rows_ = false;
+    path_ = open_.back().path;
+    open_.pop_back();
   }
 
  private:
-  void push(std::string_view name) {
-    paths_.push_back(path_);
-    path_ += std::string(name) + ".";
-    in_rows_ = false;
-  }
-  void heading(const std::string& title, std::string_view meaning) {
+  struct Section {
+    std::string heading, meaning, rows;
+  };
+  /// A table that is being listed; rows that follow those inside it belong to the one around it again.
+  struct Open {
+    std::string path;  ///< of the table around it
+    std::size_t section;
+  };
+
+  void open(const std::string& heading, std::string_view name, std::string_view meaning) {
     const std::string note = taken_note();
-    text_ += "\n## `" + title + "`\n\n" + std::string(meaning) + (note.empty() ? "" : " (" + note + ")") + "\n";
-    in_rows_ = false;
+    open_.push_back({path_, sections_.size()});
+    sections_.push_back({heading, std::string(meaning) + (note.empty() ? "" : " (" + note + ")"), ""});
+    path_ += std::string(name) + ".";
   }
   void row(std::string_view name, const std::string& value, const std::string& allowed, std::string_view meaning) {
     const std::string note = taken_note();
-    if (!in_rows_) text_ += "\n| key | default | allowed | meaning |\n| --- | --- | --- | --- |\n";
-    in_rows_ = true;
-    text_ += "| `" + path_ + std::string(name) + "` | " + value + " | " + allowed + " | " + std::string(meaning) +
-             (note.empty() ? "" : " (" + note + ")") + " |\n";
+    if (sections_.empty()) sections_.emplace_back();
+    sections_[open_.empty() ? 0 : open_.back().section].rows +=
+        "| `" + path_ + std::string(name) + "` | " + value + " | " + allowed + " | " + std::string(meaning) +
+        (note.empty() ? "" : " (" + note + ")") + " |\n";
   }
 
-  std::string text_, path_;
-  std::vector<std::string> paths_;
-  bool in_rows_ = false;
+  std::string title_, path_;
+  std::vector<Section> sections_;
+  std::vector<Open> open_;
 };
 
 std::string json_text(std::string_view value) {

@@ -69,8 +69,8 @@ void list_keys(Keys& keys, CameraSettings& camera) {
   read_look_at(keys, camera);
   if (camera.fov_deg == 0) camera.fov_deg = usual_fov_deg(camera.type);
   keys.number(
-      "fov_deg", camera.fov_deg, fov_range(camera.type),
-      "angle of view across the width, usually 90; equirectangular: usually 360; fisheye: across the full "
+      "fov_deg", camera.fov_deg, keys.documents() ? fov_range("fisheye") : fov_range(camera.type),
+      "angle of view across the width, usually 90 and below 180; equirectangular: usually 360; fisheye: across the full "
       "circle, usually 180");
   keys.number("width_m", camera.width_m, above(0),
               "orthographic: what the width of the picture shows [m]");

@@ -11,11 +11,12 @@ namespace {
 constexpr double most_forced_depth = 3;
 
 /// Light that has been scattered straight on by peaked phase functions arrives from around the sun. Paths that go there by
-/// chance alone are rare and bright: this share of the first few turns of a path goes there on purpose. Only of the first
-/// few, because every turn that might have and did not makes the path count 1/(1 − share) more.
-constexpr float share_to_sun = 0.1f;
-constexpr long long turns_to_sun = 8;
-/// Where surfaces send that share: about as wide as the glow around the sun in cloud and rain.
+/// chance alone are rare and bright, so at this share of their turns a second path sets out on purpose for where the
+/// phase function, seen from the sun, is bright. Both count by the balance heuristic for several samples (Veach and Guibas 1995), which
+/// takes nothing from paths that go elsewhere. (Buras and Mayer, "Efficient unbiased variance reduction techniques for Monte Carlo
+/// simulations of radiative transfer in cloudy atmospheres", JQSRT 112, 434, 2011, send the path itself that way.)
+constexpr float paths_to_sun = 0.2f;
+/// Where surfaces send them: about as wide as the glow around the sun in cloud and rain.
 const phase::PhaseFunction glow{phase::HenyeyGreenstein(0.95)};
 
 }  // namespace
@@ -27,6 +28,8 @@ struct VolumePath::Path {
   /// Share that a direct hit of the sun's disc counts: the rest was, or will be, found by asking the sun. 1 for what
   /// the camera sees directly.
   float sun_share = 1;
+  /// How bright it is likely to be where the path goes, in units of the mean over all directions.
+  float promise = 1;
   long long bounces = 0;
 
   Spectrum contribution(const Spectrum& light) const { return weight * light / density.mean(); }
@@ -41,7 +44,7 @@ struct VolumePath::Path {
   /// Ends paths that have little left to bring; the survivors take over (Arvo and Kirk 1990).
   bool survives_roulette(Random& random) {
     constexpr float enough = 0.25f;
-    const float left = weight.max() / density.mean();
+    const float left = weight.max() / density.mean() * promise;
     if (left >= enough) return true;
     if (!(left > 0) || random.uniform() * enough >= left) return false;
     weight *= enough / left;
@@ -124,10 +127,15 @@ void VolumePath::scatter(Path& path, const media::Collision& collision, const Wa
   const Vec3 incoming = path.ray.direction;
   const Sun& sun = scene_.sun;
 
-  const bool may_turn_to_sun = sun.is_on() && path.bounces <= turns_to_sun;
-  const auto density = [&](const Vec3& outgoing, const Spectrum& value) {
-    if (!may_turn_to_sun) return value;
-    return value * (1 - share_to_sun) + function.value(sun.to_centre(), outgoing, wavelengths) * share_to_sun;
+  const float to_sun_share = sun.is_on() && function.is_peaked() ? paths_to_sun : 0;
+  // Expected number of paths that leave in a direction, a steradian, and what of them was meant for the sun.
+  struct Density {
+    Spectrum all, to_sun;
+  };
+  const auto density = [&](const Vec3& outgoing, const Spectrum& value) -> Density {
+    if (to_sun_share == 0) return {value, {}};
+    const Spectrum to_sun = function.value(sun.to_centre(), outgoing, wavelengths);
+    return {value + to_sun * to_sun_share, to_sun};
   };
 
   if (sun.is_on()) {
@@ -140,38 +148,45 @@ void VolumePath::scatter(Path& path, const media::Collision& collision, const Wa
     } else {
       const Spectrum value = function.value(incoming, to_sun, wavelengths);
       const double asked = path.density.mean() * sun.density_per_sr(to_sun);
-      const double found = (path.density * density(to_sun, value)).mean();
+      const double found = (path.density * density(to_sun, value).all).mean();
       total += path.contribution(value * sun.radiance(to_sun, wavelengths) *
                                  sun_transmittance(collision.position_m, to_sun, wavelengths, random)) *
                static_cast<float>(path.density.mean() / (asked + found));
     }
   }
 
-  const bool turns_to_sun_now = may_turn_to_sun && random.uniform() < share_to_sun;
-  phase::Draw draw = function.draw(turns_to_sun_now ? sun.to_centre() : incoming, wavelengths, random);
-  if (turns_to_sun_now) draw.value_per_sr = function.value(incoming, draw.outgoing, wavelengths);
-  draw.density_per_sr = density(draw.outgoing, draw.value_per_sr);
-  if (function.includes_sun_disc()) {
-    path.sun_share = 0;
-  } else {
-    const double asked = path.density.mean() * sun.density_per_sr(draw.outgoing);
-    const double found = (path.density * draw.density_per_sr).mean();
-    path.sun_share = static_cast<float>(found / (asked + found));
+  const auto leave = [&](Path& leaving, const Vec3& outgoing, const Spectrum& value) {
+    const Density densities = density(outgoing, value);
+    if (function.includes_sun_disc()) {
+      leaving.sun_share = 0;
+    } else {
+      const double asked = leaving.density.mean() * sun.density_per_sr(outgoing);
+      const double found = (leaving.density * densities.all).mean();
+      leaving.sun_share = static_cast<float>(found / (asked + found));
+    }
+    leaving.weight *= value / densities.all[0];
+    leaving.density *= densities.all / densities.all[0];
+    leaving.promise = to_sun_share == 0 ? 1 : 0.5f + 0.5f * static_cast<float>(4 * pi) * densities.to_sun[0];
+    leaving.ray = media::Ray{collision.position_m, outgoing};
+  };
+  if (to_sun_share > 0 && random.uniform() < to_sun_share) {
+    Path second = path;
+    const Vec3 outgoing = function.draw(sun.to_centre(), wavelengths, random).outgoing;
+    leave(second, outgoing, function.value(incoming, outgoing, wavelengths));
+    follow(second, wavelengths, random, total);
   }
-  path.weight *= draw.value_per_sr / draw.density_per_sr[0];
-  path.density *= draw.density_per_sr / draw.density_per_sr[0];
-  path.ray = media::Ray{collision.position_m, draw.outgoing};
+  const phase::Draw draw = function.draw(incoming, wavelengths, random);
+  leave(path, draw.outgoing, draw.value_per_sr);
 }
 
 void VolumePath::reflect(Path& path, const Hit& hit, const Wavelengths& wavelengths, Random& random,
                          Spectrum& total) const {
   const Matte& material = *hit.material;
   const Sun& sun = scene_.sun;
-  const bool may_turn_to_sun = sun.is_on() && !scene_.medium->is_empty() && path.bounces <= turns_to_sun;
+  const float to_sun_share = sun.is_on() && !scene_.medium->is_empty() ? paths_to_sun : 0;
   const auto density = [&](const Vec3& away) {
-    const double own = material.density_per_sr(hit.normal, away);
-    if (!may_turn_to_sun) return own;
-    return (1 - share_to_sun) * own + share_to_sun * glow.value(sun.to_centre(), away, wavelengths)[0];
+    return material.density_per_sr(hit.normal, away) +
+           (to_sun_share > 0 ? to_sun_share * glow.value(sun.to_centre(), away, wavelengths)[0] : 0);
   };
   if (sun.is_on()) {
     const Vec3 to_sun = sun.draw(random.uniform_double(), random.uniform_double());
@@ -183,14 +198,20 @@ void VolumePath::reflect(Path& path, const Hit& hit, const Wavelengths& waveleng
                static_cast<float>(value * cosine / (sun.density_per_sr(to_sun) + density(to_sun)));
     }
   }
-  const bool turns_to_sun_now = may_turn_to_sun && random.uniform() < share_to_sun;
-  const Vec3 away = turns_to_sun_now
-                        ? glow.draw(sun.to_centre(), wavelengths, random).outgoing
-                        : material.draw(hit.normal, random.uniform_double(), random.uniform_double());
-  const double cosine = dot(hit.normal, away), found = density(away);
-  path.sun_share = static_cast<float>(found / (sun.density_per_sr(away) + found));
-  path.weight *= cosine > 0 ? static_cast<float>(material.value_per_sr(hit.normal, away) * cosine / found) : 0.f;
-  path.ray = media::Ray{hit.position_m, away};
+  const auto leave = [&](Path& leaving, const Vec3& away) {
+    const double cosine = dot(hit.normal, away), found = density(away);
+    leaving.sun_share = static_cast<float>(found / (sun.density_per_sr(away) + found));
+    leaving.weight *= cosine > 0 ? static_cast<float>(material.value_per_sr(hit.normal, away) * cosine / found) : 0.f;
+    leaving.promise = 1;
+    leaving.ray = media::Ray{hit.position_m, away};
+  };
+  if (to_sun_share > 0 && random.uniform() < to_sun_share) {
+    Path second = path;
+    leave(second, glow.draw(sun.to_centre(), wavelengths, random).outgoing);
+    second.promise = 5;
+    follow(second, wavelengths, random, total);
+  }
+  leave(path, material.draw(hit.normal, random.uniform_double(), random.uniform_double()));
 }
 
 Spectrum VolumePath::sun_transmittance(const Vec3& position_m, const Vec3& to_sun, const Wavelengths& wavelengths,
