@@ -15,7 +15,7 @@ constexpr double most_forced_depth = 3;
 /// phase function, seen from the sun, is bright. Both count by the balance heuristic for several samples (Veach and Guibas 1995), which
 /// takes nothing from paths that go elsewhere. (Buras and Mayer, "Efficient unbiased variance reduction techniques for Monte Carlo
 /// simulations of radiative transfer in cloudy atmospheres", JQSRT 112, 434, 2011, send the path itself that way.)
-constexpr float paths_to_sun = 0.2f;
+constexpr float paths_to_sun = 0.4f;
 /// Where surfaces send them: about as wide as the glow around the sun in cloud and rain.
 const phase::PhaseFunction glow{phase::HenyeyGreenstein(0.95)};
 
