@@ -5,8 +5,9 @@ arcus=$(realpath "${1:?usage: author.sh ARCUS NAME}")
 cd "$(dirname "${BASH_SOURCE[0]}")"
 case "${2:?usage: author.sh ARCUS NAME}" in
   rain_shower)
-    "$arcus" author rain -o rain_shower.vdb --drops narrow --radius-um 300 --variance 0.03 --rain-mm-per-hour 5 \
-      --core-radius-m 550 --edge-width-m 450 --stretch 5 --centre-m 0,2300,0 --cloud-base-m 1900 ;;
+    "$arcus" author rain -o rain_shower.vdb --drops narrow --radius-um 220 --radius-exponent 0.1 --variance 0.02 \
+      --rain-mm-per-hour 0.4 --core-radius-m 700 --edge-width-m 500 --stretch 7 --centre-m=-2500,2500,0 --cloud-base-m 2600 \
+      --virga-m 12000 --streak-contrast 0.45 --turbulence 0.25 ;;
   slab)
     "$arcus" author box -o slab.vdb --name layer --optical-depth 5 --centre-m 0,0,0 --size-m 100000,100000,1 --voxels 4,4,4 \
       --phase-type hg --phase-g 0.85 ;;

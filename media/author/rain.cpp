@@ -92,13 +92,11 @@ std::string recipe_text(const RainSettings& settings, double smallest_um, double
   recipe.distribution.variance = settings.variance;
   recipe.distribution.rain_mm_per_hour = 0;
   const double per_octave = settings.nodes_per_octave > 0 ? settings.nodes_per_octave : is_narrow ? 7 : 3;
-  const double octaves = std::log2(largest_um / smallest_um);
-  const int nodes = 1 + static_cast<int>(std::ceil(octaves * per_octave - 1e-9));
+  // On a lattice that all showers share, so that a like one finds its phase functions in the cache.
+  const auto place_of = [&](double size_um) { return std::log2(size_um / 100) * per_octave; };
+  const int first = static_cast<int>(std::floor(place_of(smallest_um) + 1e-6)), last = static_cast<int>(std::ceil(place_of(largest_um) - 1e-6));
   recipe.size_um.clear();
-  for (int i = 0; i < nodes; ++i) {
-    const double size = nodes > 1 ? smallest_um * std::exp2(octaves * i / (nodes - 1)) : smallest_um;
-    recipe.size_um.push_back(std::stod(number_text(static_cast<float>(size))));
-  }
+  for (int k = first; k <= last; ++k) recipe.size_um.push_back(std::round(1e4 * std::exp2(k / per_octave)) / 100);
   return text_of(recipe);
 }
 

@@ -19,6 +19,12 @@ constexpr float paths_to_sun = 0.4f;
 /// Where surfaces send them: about as wide as the glow around the sun in cloud and rain.
 const phase::PhaseFunction glow{phase::HenyeyGreenstein(0.95)};
 
+/// How bright it may be in a direction, in units of the mean over all: half of the light is taken to be where the paths to
+/// the sun go. Nowhere less than 1, or roulette would make noise of what comes from everywhere.
+float promise(float share_to_sun, double to_sun_density_per_sr) {
+  return share_to_sun == 0 ? 1 : std::max(1.f, static_cast<float>(0.5 * 4 * pi * to_sun_density_per_sr));
+}
+
 }  // namespace
 
 struct VolumePath::Path {
@@ -166,7 +172,7 @@ void VolumePath::scatter(Path& path, const media::Collision& collision, const Wa
     }
     leaving.weight *= value / densities.all[0];
     leaving.density *= densities.all / densities.all[0];
-    leaving.promise = to_sun_share == 0 ? 1 : 0.5f + 0.5f * static_cast<float>(4 * pi) * densities.to_sun[0];
+    leaving.promise = promise(to_sun_share, densities.to_sun[0]);
     leaving.ray = media::Ray{collision.position_m, outgoing};
   };
   if (to_sun_share > 0 && random.uniform() < to_sun_share) {
@@ -184,9 +190,11 @@ void VolumePath::reflect(Path& path, const Hit& hit, const Wavelengths& waveleng
   const Matte& material = *hit.material;
   const Sun& sun = scene_.sun;
   const float to_sun_share = sun.is_on() && !scene_.medium->is_empty() ? paths_to_sun : 0;
+  const auto to_sun_density = [&](const Vec3& away) {
+    return to_sun_share > 0 ? glow.value(sun.to_centre(), away, wavelengths)[0] : 0;
+  };
   const auto density = [&](const Vec3& away) {
-    return material.density_per_sr(hit.normal, away) +
-           (to_sun_share > 0 ? to_sun_share * glow.value(sun.to_centre(), away, wavelengths)[0] : 0);
+    return material.density_per_sr(hit.normal, away) + to_sun_share * to_sun_density(away);
   };
   if (sun.is_on()) {
     const Vec3 to_sun = sun.draw(random.uniform_double(), random.uniform_double());
@@ -202,13 +210,12 @@ void VolumePath::reflect(Path& path, const Hit& hit, const Wavelengths& waveleng
     const double cosine = dot(hit.normal, away), found = density(away);
     leaving.sun_share = static_cast<float>(found / (sun.density_per_sr(away) + found));
     leaving.weight *= cosine > 0 ? static_cast<float>(material.value_per_sr(hit.normal, away) * cosine / found) : 0.f;
-    leaving.promise = 1;
+    leaving.promise = promise(to_sun_share, to_sun_density(away));
     leaving.ray = media::Ray{hit.position_m, away};
   };
   if (to_sun_share > 0 && random.uniform() < to_sun_share) {
     Path second = path;
     leave(second, glow.draw(sun.to_centre(), wavelengths, random).outgoing);
-    second.promise = 5;
     follow(second, wavelengths, random, total);
   }
   leave(path, material.draw(hit.normal, random.uniform_double(), random.uniform_double()));
