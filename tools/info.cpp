@@ -4,8 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <memory>
 
 #include "media/grid/grid_facts.h"
@@ -116,6 +118,25 @@ Json picture_facts(const std::string& path) {
              {"pixels_from", {image.box().x0, image.box().y0}},
              {"pixels_to", {image.box().x1, image.box().y1}},
              {"channels", image.channel_names()}};
+  for (std::size_t c = 0; c < image.channel_names().size(); ++c) {
+    double least = std::numeric_limits<double>::infinity(), most = -least, sum = 0;
+    long long finite = 0, others = 0;
+    for (int y = image.box().y0; y < image.box().y1; ++y)
+      for (int x = image.box().x0; x < image.box().x1; ++x) {
+        const double value = image.value(x, y, c);
+        if (!std::isfinite(value)) {
+          ++others;
+          continue;
+        }
+        least = std::min(least, value);
+        most = std::max(most, value);
+        sum += value;
+        ++finite;
+      }
+    Json values{{"smallest", least}, {"mean", sum / static_cast<double>(finite)}, {"largest", most}};
+    if (others > 0) values["not_finite"] = others;
+    facts["values"][image.channel_names()[c]] = values;
+  }
   for (const auto& [name, value] : image.metadata.entries())
     std::visit([&, name = name](const auto& v) { facts["metadata"][name] = v; }, value);
   return facts;

@@ -50,7 +50,7 @@ std::vector<double> candidate_angles_deg(const AngularDetail& detail) {
   const double airy_deg = degrees(1.69 * std::pow(std::max(detail.largest_size_parameter, 1.0), -2.0 / 3));
   const std::vector<BowZone> zones = bow_zones(detail, airy_deg);
   // Linear interpolation of a sine within 0.1 % takes 70 nodes a period; candidates are closer.
-  const double step_in_bow = std::clamp(airy_deg / 60, 0.004, 0.05), step_elsewhere = std::clamp(airy_deg / 20, 0.03, 0.1);
+  const double step_in_bow = std::clamp(airy_deg / 60, 0.002, 0.05), step_elsewhere = std::clamp(airy_deg / 20, 0.03, 0.1);
   const auto step_at = [&](double angle_deg) {
     // Rings are a period of 180°/x apart and survive until drops of different size are out of step.
     double step = std::max(ring_deg, distance_from_axis(angle_deg) * width / 2) / 100;

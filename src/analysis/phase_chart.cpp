@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "phase/base/frame.h"
+#include "src/film/tone.h"
 
 namespace arcus::render {
 namespace {
@@ -44,12 +46,41 @@ std::vector<std::vector<double>> values(const phase::Species& species,
   return result;
 }
 
-/// Colours with the white of the sun, largest channel 0.8.
-Strip strip_of(std::vector<Rgb> colours, const std::vector<double>& angle_deg, std::string label) {
-  double most = 0;
-  for (const Rgb& c : colours) most = std::max({most, c.r, c.g, c.b});
-  for (Rgb& c : colours) c = {c.r * 0.8 / most, c.g * 0.8 / most, c.b * 0.8 / most};
-  return {std::move(label), angle_deg, std::move(colours)};
+double luminance_of(const Rgb& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }
+
+Rgb scaled(const Rgb& c, double factor) { return {c.r * factor, c.g * factor, c.b * factor}; }
+
+/// Colours whose luminance, which spans decades, becomes a step of grey for each factor.
+std::vector<Rgb> with_logarithmic_luminance(const std::vector<Rgb>& colours) {
+  double least = std::numeric_limits<double>::max(), most = 0;
+  for (const Rgb& c : colours) {
+    least = std::min(least, std::max(luminance_of(c), 1e-30));
+    most = std::max(most, luminance_of(c));
+  }
+  std::vector<Rgb> result;
+  for (const Rgb& c : colours) {
+    const double luminance = std::max(luminance_of(c), 1e-30);
+    const double place = most > least ? std::log(luminance / least) / std::log(most / least) : 1;
+    const double grey = 0.15 + 0.75 * place;  // of the eye's scale, whose square or so is the luminance
+    result.push_back(display_linear(scaled(c, std::pow(grey, 2.2) / luminance)));
+  }
+  return result;
+}
+
+/// Divided by the luminance around, over 5° to either side: what is left are the rings and bows.
+std::vector<Rgb> relative_to_surroundings(const std::vector<Rgb>& colours, const std::vector<double>& angle_deg) {
+  constexpr double reach_deg = 5, middle_grey = 0.2;
+  std::vector<Rgb> result;
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    double sum = 0, count = 0;
+    for (std::size_t j = 0; j < colours.size(); ++j) {
+      if (std::fabs(angle_deg[j] - angle_deg[i]) > reach_deg) continue;
+      sum += std::log(std::max(luminance_of(colours[j]), 1e-30));
+      ++count;
+    }
+    result.push_back(display_linear(scaled(colours[i], middle_grey * std::exp(-sum / count))));
+  }
+  return result;
 }
 
 }  // namespace
@@ -85,7 +116,7 @@ LineChart phase_chart(const phase::Species& species, const Curve& sun_irradiance
     all_nm.push_back(nm);
   const auto spectra = values(species, all_nm, settings);
   const ToRgb to_rgb = to_rgb_from_white(xyz_of([&](double nm) { return sun_irradiance(nm); }));
-  std::vector<Rgb> colours, relative;
+  std::vector<Rgb> colours;
   const auto size = static_cast<float>(settings.size_um);
   std::vector<double> strength(all_nm.size());
   for (std::size_t w = 0; w < all_nm.size(); ++w) {
@@ -104,23 +135,10 @@ LineChart phase_chart(const phase::Species& species, const Curve& sun_irradiance
     };
     colours.push_back(to_rgb(xyz_of(spectrum)));
   }
-  // Divided by the luminance around, over 5° to either side: what is left are the rings and bows.
-  for (std::size_t i = 0; i < colours.size(); ++i) {
-    double sum = 0, count = 0;
-    for (std::size_t j = 0; j < colours.size(); ++j) {
-      if (std::fabs(settings.angle_deg[j] - settings.angle_deg[i]) > 5) continue;
-      const double luminance =
-          0.2126 * colours[j].r + 0.7152 * colours[j].g + 0.0722 * colours[j].b;
-      sum += std::log(std::max(luminance, 1e-30));
-      ++count;
-    }
-    const double scale = std::exp(-sum / count);
-    relative.push_back({colours[i].r * scale, colours[i].g * scale, colours[i].b * scale});
-  }
-  chart.strips.push_back(
-      strip_of(colours, settings.angle_deg, "colour of a thin cloud in sunlight"));
-  chart.strips.push_back(
-      strip_of(relative, settings.angle_deg, "the same, divided by the brightness within 5°"));
+  chart.strips.push_back({"colour of a thin cloud in sunlight, brightness logarithmic", settings.angle_deg,
+                          with_logarithmic_luminance(colours)});
+  chart.strips.push_back({"the same, divided by the brightness within 5°", settings.angle_deg,
+                          relative_to_surroundings(colours, settings.angle_deg)});
   return chart;
 }
 

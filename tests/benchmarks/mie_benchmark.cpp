@@ -56,7 +56,7 @@ double wiscombe_terms(double x) { return x + 4.05 * std::cbrt(x) + 2; }
 // benchmark::Counter shows the inverse of a rate with its SI prefix: 12p is 0.012 ns.
 benchmark::Counter each(double count) {
   return benchmark::Counter(
-      count, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+      count, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kAvgThreads | benchmark::Counter::kInvert);
 }
 
 std::vector<double> neighbours(double x) {

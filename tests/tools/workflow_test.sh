@@ -1,0 +1,106 @@
+#!/usr/bin/env bash
+# The program as people use it: author, look at, render, measure, compare; interrupt and go on. Usage: workflow_test.sh ARCUS
+ARCUS=$1
+source "$(dirname "${BASH_SOURCE[0]}")/shell_kit.sh"
+
+# check WHAT COMMAND...: the command succeeds; its own output is of no interest.
+check() {
+  local what=$1
+  shift
+  checks=$((checks + 1))
+  "$@" >"$work/.stdout" 2>"$work/.stderr" || complain "$what"
+}
+is_png() { [ "$(head -c 8 "$1" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a ]; }
+is_json() {
+  printf 'file(READ "%s" text)\nstring(JSON count LENGTH "${text}")\n' "$1" >json.cmake
+  cmake -P json.cmake
+}
+
+# Author a small shower, with options and with a file of settings: the same bytes of values.
+must "$ARCUS" author rain -o shower.vdb --core-radius-m 60 --edge-width-m 40 --cloud-base-m 120 --seed 4 --quiet
+printf 'core_radius_m = 60\nedge_width_m = 40\ncloud_base_m = 120\nseed = 4\n' >shower.toml
+must "$ARCUS" author rain -o again.vdb --settings shower.toml --quiet
+expect 0 'rain.extinction' "$ARCUS" info shower.vdb
+"$ARCUS" info shower.vdb --json | grep -v '"file"' >one.json
+"$ARCUS" info again.vdb --json | grep -v '"file"' >two.json
+check 'settings and options author different showers' cmp one.json two.json
+check 'info --json is no JSON' is_json one.json
+expect 0 'Usage' "$ARCUS" author rain --help
+printf '0,0,0,0.5\n1,0,0,0.25\n0,0,2,0.125\n' >points.csv
+must "$ARCUS" author field --file points.csv -o field.vdb
+expect 0 'active_voxels: 3' "$ARCUS" info field.vdb
+
+# Phase functions.
+"$ARCUS" phase sphere --x 10 --n 1.33 --k 1e-8 --angles-deg 0,90,180 --json >sphere.json
+for key in qext qsca qback g angles_deg s1_re s1_im s2_re s2_im; do
+  check "phase sphere --json has no $key" grep -q "\"$key\"" sphere.json
+done
+printf 'type = "mie"\nsize_um = [3, 4]\nradii = 300\nwavelength_nm = { min = 500, max = 600, nodes = 3 }\n' >drops.toml
+"$ARCUS" phase eval drops.toml --size-um 3 --wavelength-nm 550 --angles-deg 0:180:90 >eval.csv
+check 'the header of phase eval' grep -qx 'scattering_angle_deg,P11,P12,P33,P34' eval.csv
+check 'phase eval has a line an angle' test "$(wc -l <eval.csv)" -eq 4
+must "$ARCUS" phase compute drops.toml -o drops.nc
+check 'the dimensions of a table' bash -c 'ncdump -h drops.nc | grep -q "P11(size_um, wavelength_nm, scattering_angle_deg)"'
+must "$ARCUS" phase plot drops.toml -o drops.png --polar polar.png --size-um 4
+check 'phase plot makes a PNG' is_png drops.png
+check 'phase plot --polar makes a PNG' is_png polar.png
+expect 0 'recipe' "$ARCUS" info drops.nc
+
+# Render, with options that change the scene; the EXR knows it.
+must "$ARCUS" author box -o box.vdb --optical-depth 1 --phase drops.toml
+printf '[camera]\nresolution = [48, 32]\nposition_m = [0, -2000, 0]\n[[medium]]\nvdb = "box.vdb"\n' >box.toml
+expect 0 'samples/s' "$ARCUS" render box.toml -o box.exr --spp 4 --seed 3 --set sun.elevation_deg=35 --set 'film.channels=["rgb","variance"]'
+check 'a PNG beside the EXR' is_png box.png
+expect 0 'arcus:sun:elevation_deg: 35' "$ARCUS" info box.exr
+expect 0 'variance.R' "$ARCUS" info box.exr
+must "$ARCUS" render box.toml -o quiet.exr --spp 1 --quiet --no-png
+check '--quiet is quiet' test ! -s "$work/.stderr"
+absent quiet.png
+"$ARCUS" render box.toml -o json.exr --spp 4 --progress json --no-png 2>progress.txt
+check '--progress json' grep -q '^{.*samples' progress.txt
+
+# The same bits whatever the threads; pictures that differ say so.
+for threads in 1 3; do must "$ARCUS" render box.toml -o "t$threads.exr" --spp 4 --threads "$threads" --no-png; done
+expect 0 'RMSE' "$ARCUS" compare t1.exr t3.exr -o report.html
+check 'pictures of 1 and 3 threads differ' bash -c "'$ARCUS' compare t1.exr t3.exr | grep -qE '^R .* 0 +0 +0 '"
+check 'the report holds pictures' grep -q '<img' report.html
+
+# A profile around the antisolar point: a CSV with one line a bin, and its chart.
+must "$ARCUS" profile box.exr --around antisolar -o profile.csv
+check 'the header of a profile' grep -q '^angle_deg,' profile.csv
+check 'a profile has bins' test "$(wc -l <profile.csv)" -gt 5
+check 'a chart beside the CSV' is_png profile.png
+
+# Interrupted: a valid picture of what is done, exit code 130 or 143, and a checkpoint where one is asked for.
+interrupt() {  # interrupt SIGNAL CODE OPTIONS...: renders for half a second
+  local signal=$1 code=$2 found
+  shift 2
+  checks=$((checks + 1))
+  "$ARCUS" render box.toml -o cut.exr --no-png --quiet "$@" 2>"$work/.stderr" &
+  local process=$!
+  sleep 0.5
+  kill "-$signal" "$process"
+  wait "$process"
+  found=$?
+  [ "$found" -eq "$code" ] || complain "SIG$signal ended a render with $found, not $code"
+}
+set +m
+interrupt TERM 143 --spp 1000000
+expect 0 'samples_per_pixel' "$ARCUS" info cut.exr
+absent cut.exr.checkpoint
+interrupt TERM 143 --spp 4000 --resume
+check 'a checkpoint is left' test -s cut.exr.checkpoint
+for _ in 1 2 3; do "$ARCUS" render box.toml -o cut.exr --spp 4000 --resume --time-limit 0.3 --no-png --quiet; done
+expect 3 'another picture' "$ARCUS" render box.toml -o cut.exr --spp 4001 --resume
+must "$ARCUS" render box.toml -o cut.exr --spp 4000 --resume --no-png --threads 1
+absent cut.exr.checkpoint
+must "$ARCUS" render box.toml -o whole.exr --spp 4000 --no-png
+check 'resumed and whole pictures differ' bash -c "'$ARCUS' compare cut.exr whole.exr | grep -qE '^R .* 0 +0 +0 '"
+# Ctrl-C: shells start background jobs with SIGINT ignored, so the program is started with it set anew.
+checks=$((checks + 1))
+timeout --preserve-status --signal INT 0.7 "$ARCUS" render box.toml -o int.exr --spp 1000000 --no-png --quiet 2>"$work/.stderr"
+found=$?
+[ $found -eq 130 ] || complain "Ctrl-C ended a render with $found, not 130"
+expect 0 'samples_per_pixel' "$ARCUS" info int.exr
+
+finish
