@@ -70,10 +70,10 @@ package("^toml(plus|[+][+]|[.]hpp)" "^phase/settings/toml_text[.]cpp$"
 package("^netcdf" "^phase/species/species_file[.]cpp$" "NetCDF stays in phase/species/species_file.cpp")
 package("^xxh" "^phase/(base/content_hash|species/[^/]*)[.]cpp$"
   "xxHash stays in phase/base/content_hash.cpp and sources of phase/species")
-package("^nlohmann/" "^(phase/settings|src/analysis|src/render|tools)/.*[.]cpp$"
-  "JSON in sources of phase/settings, src/render, src/analysis and tools")
+package("^nlohmann/" "^(phase/settings|src/film|src/analysis|src/render|tools)/.*[.]cpp$"
+  "JSON in sources of phase/settings, src/film, src/render, src/analysis and tools")
 package("^openvdb/" "^media/grid/.*[.]cpp$" "OpenVDB stays in sources of media/grid")
-package("^nanovdb/" "^media/(grid|medium)/" "NanoVDB stays in media/grid and media/medium")
+package("^nanovdb/" "^tests/benchmarks/" "NanoVDB is there to be compared with")
 package("^OpenImageIO/" "^src/film/image_file[.]cpp$" "OpenImageIO stays in src/film/image_file.cpp")
 package("^embree" "^src/shape/intersector[.]cpp$" "Embree stays in src/shape/intersector.cpp")
 package("^cairo" "^src/analysis/canvas[.]cpp$" "Cairo stays in src/analysis/canvas.cpp")

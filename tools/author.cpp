@@ -7,7 +7,10 @@
 #include <memory>
 
 #include "media/author/box.h"
+#include "media/author/cloud.h"
 #include "media/author/field.h"
+#include "media/author/fill.h"
+#include "media/author/fog.h"
 #include "media/author/rain.h"
 #include "phase/base/whole_file.h"
 #include "tools/command.h"
@@ -62,6 +65,24 @@ void author_rain(const AuthorCommand& command, const media::RainSettings& settin
                rain.largest_radius_um, bricks);
 }
 
+/// Writes a species of droplets and says what it holds.
+void save_droplets(const AuthorCommand& command, media::NewSpecies species) {
+  const media::FilledRange range = media::range_of(species);
+  const std::size_t bricks = species.extinction.size();
+  media::save_grids(command.output, media::grids_of(std::move(species)));
+  if (command.quiet) return;
+  std::fprintf(stderr, "%s: extinction up to %.3g /m (diffraction included), effective radius %.3g to %.3g um, %zu bricks of 8^3 voxels\n",
+               command.output.c_str(), range.largest_extinction_per_m, range.smallest_size_um, range.largest_size_um, bricks);
+}
+
+void author_cloud(const AuthorCommand& command, const media::CloudSettings& settings) {
+  save_droplets(command, media::author_cloud(settings));
+}
+
+void author_fog(const AuthorCommand& command, const media::FogSettings& settings) {
+  save_droplets(command, media::author_fog(settings));
+}
+
 void author_box(const AuthorCommand& command, const media::BoxSettings& settings) {
   const std::string folder = std::filesystem::path(command.settings_file).parent_path().string();
   media::save_grids(command.output, media::grids_of(media::author_box(settings, folder)));
@@ -78,6 +99,8 @@ void add_author(CLI::App& program) {
   CLI::App* author = program.add_subcommand("author", "Make a medium as a VDB file");
   author->require_subcommand(1);
   add_kind<media::RainSettings>(*author, "rain", "A shower: a shaft of rain under a cloud base", author_rain);
+  add_kind<media::CloudSettings>(*author, "cloud", "Water clouds: cumulus, stratocumulus, stratus", author_cloud);
+  add_kind<media::FogSettings>(*author, "fog", "Radiation or advection fog", author_fog);
   add_kind<media::BoxSettings>(*author, "box", "A homogeneous block", author_box);
   add_kind<media::FieldSettings>(*author, "field", "An array of numbers from elsewhere, raw or as text", author_field);
 }

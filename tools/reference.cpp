@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "media/author/box.h"
+#include "media/author/cloud.h"
 #include "media/author/field.h"
+#include "media/author/fog.h"
 #include "media/author/rain.h"
 #include "phase/settings/reference.h"
 #include "phase/species/recipe.h"
@@ -39,6 +41,8 @@ std::map<std::string, Reference> references() {
   return {{"scene", reference_of<render::SceneSettings>("Keys of a scene file")},
           {"recipe", reference_of<phase::Recipe>("Keys of a phase recipe")},
           {"author-rain", reference_of<media::RainSettings>("Keys of arcus author rain")},
+          {"author-cloud", reference_of<media::CloudSettings>("Keys of arcus author cloud")},
+          {"author-fog", reference_of<media::FogSettings>("Keys of arcus author fog")},
           {"author-box", reference_of<media::BoxSettings>("Keys of arcus author box")},
           {"author-field", reference_of<media::FieldSettings>("Keys of arcus author field")}};
 }

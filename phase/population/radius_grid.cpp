@@ -93,11 +93,11 @@ std::vector<double> wave_radii(std::span<const Bulk> bulks, double low_um, doubl
   const Axis axis(low_um, high_um, [&](double r) {
     return bulk_at(bulks, r, least_density) * (1 + r / um_per_x / even_from);
   });
-  // Where the populations lie mostly beyond the border, their tails need no more radii than a whole population would spend
-  // on them.
+  // Where the populations lie mostly beyond the border, their tails need fewer radii than a whole population: their ripple is
+  // diluted by the share of the tail, and goes down with the root of the number or faster.
   double share = 0;
   for (const Bulk& bulk : bulks) share = std::max(share, wave_share(bulk, high_um, um_per_x));
-  const auto enough = static_cast<long long>(std::ceil(share * static_cast<double>(count)));
+  const auto enough = static_cast<long long>(std::ceil(std::sqrt(share) * static_cast<double>(count)));
   const double most = (high_um - low_um) / um_per_x / smallest_step;
   return axis.cut(std::clamp<long long>(enough, 2, std::max(16LL, static_cast<long long>(most))));
 }

@@ -15,7 +15,7 @@ constexpr double most_forced_depth = 3;
 /// phase function, seen from the sun, is bright. Both count by the balance heuristic for several samples (Veach and Guibas 1995), which
 /// takes nothing from paths that go elsewhere. (Buras and Mayer, "Efficient unbiased variance reduction techniques for Monte Carlo
 /// simulations of radiative transfer in cloudy atmospheres", JQSRT 112, 434, 2011, send the path itself that way.)
-constexpr float paths_to_sun = 0.4f;
+constexpr float paths_to_sun = 0.5f;
 /// Where surfaces send them: about as wide as the glow around the sun in cloud and rain.
 const phase::PhaseFunction glow{phase::HenyeyGreenstein(0.95)};
 
@@ -133,7 +133,8 @@ void VolumePath::scatter(Path& path, const media::Collision& collision, const Wa
   const Vec3 incoming = path.ray.direction;
   const Sun& sun = scene_.sun;
 
-  const float to_sun_share = sun.is_on() && function.is_peaked() ? paths_to_sun : 0;
+  // Where the path goes to the sun already, its own turns look there.
+  const float to_sun_share = sun.is_on() && function.is_peaked() ? paths_to_sun / path.promise : 0;
   // Expected number of paths that leave in a direction, a steradian, and what of them was meant for the sun.
   struct Density {
     Spectrum all, to_sun;

@@ -92,9 +92,12 @@ TEST(Rain, RecipeSpansTheSizes) {
     EXPECT_EQ(recipe.type, "rain");
     EXPECT_EQ(recipe.distribution.type, drops == "narrow" ? "gamma" : "marshall_palmer");
     ASSERT_GT(recipe.size_um.size(), 2u);
-    EXPECT_NEAR(recipe.size_um.front(), rain.smallest_radius_um, 1e-3);
-    EXPECT_NEAR(recipe.size_um.back(), rain.largest_radius_um, 1e-3);
+    // By less than a step of the lattice, whose nodes have two decimals.
     const double ratio = recipe.size_um[1] / recipe.size_um[0];
+    EXPECT_LE(recipe.size_um.front(), rain.smallest_radius_um + 0.01);
+    EXPECT_GT(recipe.size_um.front() * ratio, rain.smallest_radius_um - 0.01);
+    EXPECT_GE(recipe.size_um.back(), rain.largest_radius_um - 0.01);
+    EXPECT_LT(recipe.size_um.back() / ratio, rain.largest_radius_um + 0.01);
     EXPECT_LT(ratio, drops == "narrow" ? std::exp2(1 / 6.9) : std::exp2(1 / 2.9));
     EXPECT_EQ(rain.species.phase_id, phase::recipe_id(recipe));
   }
