@@ -62,7 +62,7 @@ rejects(phase/optics/a.h "#include <Imath/ImathVec.h>" "Imath stays in phase/bas
 rejects(media/grid/a.h "#include <openvdb/openvdb.h>" "OpenVDB stays in sources of media/grid")
 accepts(media/grid/a.cpp "#include <openvdb/openvdb.h>")
 rejects(media/medium/a.cpp "#include <openvdb/openvdb.h>" "OpenVDB stays in sources of media/grid")
-accepts(media/medium/a.h "#include <nanovdb/NanoVDB.h>")
+rejects(media/medium/a.h "#include <nanovdb/NanoVDB.h>" "NanoVDB is there to be compared with")
 rejects(src/render/a.h "#include <tbb/parallel_for.h>" "TBB in sources")
 accepts(src/render/a.cpp "#  include <tbb/parallel_for.h>")
 rejects(src/film/film.cpp "#include <OpenImageIO/imageio.h>" "OpenImageIO stays in src/film/image_file.cpp")
