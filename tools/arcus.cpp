@@ -11,6 +11,39 @@
 
 namespace arcus::tools {
 
+namespace {
+
+/// The nearest command or option to the first word that is neither; empty where all words are known, or none is near.
+std::string suggestion(const CLI::App& program, int argc, char** argv) {
+  const CLI::App* app = &program;
+  for (int i = 1; i < argc; ++i) {
+    std::string word = argv[i];
+    word = word.substr(0, word.find('='));
+    std::vector<std::string> known;
+    if (word.starts_with("-")) {
+      if (app->get_option_no_throw(word)) continue;
+      for (const CLI::Option* option : app->get_options())
+        for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    } else {
+      const CLI::App* next = nullptr;
+      for (const CLI::App* one : app->get_subcommands([](const CLI::App*) { return true; })) {
+        known.push_back(one->get_name());
+        if (one->get_name() == word) next = one;
+      }
+      if (known.empty()) continue;  // a file, or an option's value
+      if (next) {
+        app = next;
+        continue;
+      }
+    }
+    const std::string nearest = nearest_name(word, known);
+    return nearest.empty() ? "" : "'" + word + "' is not known. Did you mean '" + nearest + "'?";
+  }
+  return "";
+}
+
+}  // namespace
+
 static int run(int argc, char** argv) {
   CLI::App program("Renders light in weather: rainbows, fogbows, coronas, glories and halos from clouds in OpenVDB files.",
                    "arcus");
@@ -29,7 +62,9 @@ static int run(int argc, char** argv) {
     return exit_done;
   } catch (const CLI::ParseError& error) {
     const int code = program.exit(error, std::cout, std::cerr);
-    return code == 0 ? exit_done : static_cast<int>(Fault::input);
+    if (code == 0) return exit_done;
+    if (const std::string text = suggestion(program, argc, argv); !text.empty()) std::cerr << "arcus: " << text << '\n';
+    return static_cast<int>(Fault::input);
   } catch (const Exit& exit) {
     return exit.code;
   }

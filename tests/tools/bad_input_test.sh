@@ -16,6 +16,9 @@ scene() {  # scene FILE TEXT...: a small scene with lines added
 expect 2 'required' "$ARCUS"
 expect 2 'SCENE' "$ARCUS" render
 expect 2 'not expected|were not' "$ARCUS" render a.toml --no-such-option
+expect 2 "Did you mean 'render'" "$ARCUS" rendr a.toml
+expect 2 "Did you mean 'cloud'" "$ARCUS" author clod -o a.vdb
+expect 2 "Did you mean '--threads'" "$ARCUS" render a.toml --thread=3
 expect 0 'Usage' "$ARCUS" --help
 expect 0 'Usage' "$ARCUS" render --help
 expect 0 '^arcus [0-9]+\.[0-9]+' "$ARCUS" --version
