@@ -10,8 +10,12 @@
 #include <limits>
 #include <memory>
 
+#include "media/author/droplets.h"
 #include "media/grid/grid_facts.h"
+#include "media/grid/projections.h"
+#include "media/grid/stored_medium.h"
 #include "phase/base/error.h"
+#include "phase/base/whole_file.h"
 #include "phase/settings/toml_text.h"
 #include "phase/species/species_cache.h"
 #include "phase/species/make_species.h"
@@ -19,11 +23,13 @@
 #include "src/film/image_file.h"
 #include "src/scene/settings.h"
 #include "tools/command.h"
+#include "tools/info_picture.h"
 
 namespace arcus::tools {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using media::Affine;
 
 Json of(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
 
@@ -47,9 +53,57 @@ Json forward_of(const media::GridFacts& grid, const std::string& where, const st
   return nullptr;
 }
 
-Json vdb_facts(const std::string& path, const std::string& cache_folder) {
+/// Liquid water of a species of water drops, from extinction and size: 4 ρ r σ / (3 Q) a volume.
+double water_kg(const media::StoredMedium& medium, const phase::Recipe& recipe) {
+  constexpr double water_kg_per_m3 = 1000;
+  const Vec3 edges[3] = {medium.world_from_index.vector(Vec3(1, 0, 0)), medium.world_from_index.vector(Vec3(0, 1, 0)),
+                         medium.world_from_index.vector(Vec3(0, 0, 1))};
+  const double volume_m3 = std::fabs(dot(edges[0], cross(edges[1], edges[2])));
+  const bool is_cloud = recipe.type == "mie" && recipe.distribution.type == "gamma" && medium.smallest_size_um > 0;
+  const auto efficiency = is_cloud ? std::make_optional<media::DropletExtinction>(recipe.distribution.variance, medium.smallest_size_um,
+                                                                                  medium.largest_size_um * 1.001)
+                                   : std::nullopt;
+  double sum = 0;
+  media::for_each_voxel(*medium.grid, [&](const media::Coord&, const media::Voxel& voxel) {
+    const double radius_um = medium.grid->has_size() ? voxel.size_um : medium.size_um;
+    sum += voxel.extinction * radius_um / (efficiency ? efficiency->efficiency(radius_um) : 2);
+  });
+  return sum * volume_m3 * 1e-6 * water_kg_per_m3 / 0.75;
+}
+
+/// What only a species has: the range of sizes, the mass of water, and a picture where one is asked for.
+Json species_facts(const std::string& path, const std::string& png) {
+  Json all = Json::array();
+  const media::StoredMedia stored = media::read_media(path, "");
+  for (const media::StoredMedium& medium : stored.media) {
+    Json facts{{"medium", medium.name}};
+    if (medium.largest_size_um > 0) facts["size_um"] = {{"smallest", medium.smallest_size_um}, {"largest", medium.largest_size_um}};
+    if (medium.is_species) {
+      const phase::Recipe recipe = phase::recipe_from_text(medium.recipe, path + ": arcus_phase");
+      if (recipe.is_sphere() && recipe.material == "water" && medium.largest_size_um > 0) facts["water_kg"] = water_kg(medium, recipe);
+    }
+    all.push_back(facts);
+  }
+  if (!png.empty()) {
+    const Affine& map = stored.media.front().world_from_index;
+    const Vec3 voxel_m(length(map.vector(Vec3(1, 0, 0))), length(map.vector(Vec3(0, 1, 0))), length(map.vector(Vec3(0, 0, 1))));
+    write_projections(png, media::projections(*stored.media.front().grid, voxel_m), voxel_m);
+  }
+  return all;
+}
+
+/// Whether the file has anything that renders.
+bool has_species(const std::vector<media::GridFacts>& grids) {
+  for (const media::GridFacts& grid : grids)
+    for (const auto& [name, value] : grid.metadata)
+      if (name == "arcus_format") return true;
+  return false;
+}
+
+Json vdb_facts(const std::string& path, const std::string& cache_folder, const std::string& png) {
   Json grids = Json::array();
-  for (const media::GridFacts& grid : media::describe_vdb(path)) {
+  const std::vector<media::GridFacts> described = media::describe_vdb(path);
+  for (const media::GridFacts& grid : described) {
     Json facts{{"grid", grid.label}, {"type", grid.type}};
     if (!grid.is_readable) {
       facts["note"] = "a type that OpenVDB does not know";
@@ -91,7 +145,9 @@ Json vdb_facts(const std::string& path, const std::string& cache_folder) {
     for (const auto& [name, value] : grid.metadata) facts["metadata"][name] = value;
     grids.push_back(facts);
   }
-  return {{"file", path}, {"grids", grids}};
+  Json facts{{"file", path}, {"grids", grids}};
+  if (has_species(described) || !png.empty()) facts["media"] = species_facts(path, png);
+  return facts;
 }
 
 Json table_facts(const std::string& path) {
@@ -175,7 +231,7 @@ void print_words(const Json& value, int indent) {
 }
 
 struct InfoCommand {
-  std::string file, cache_folder;
+  std::string file, cache_folder, png;
   bool json = false;
 };
 
@@ -183,8 +239,9 @@ void run(const InfoCommand& command) {
   const std::string ending = std::filesystem::path(command.file).extension().string();
   Json facts;
   if (ending == ".vdb") {
-    facts = vdb_facts(command.file,
-                      command.cache_folder.empty() ? phase::default_cache_folder() : command.cache_folder);
+    if (!command.png.empty()) check_writable(command.png);
+    facts = vdb_facts(command.file, command.cache_folder.empty() ? phase::default_cache_folder() : command.cache_folder,
+                      command.png);
   } else if (ending == ".nc") {
     facts = table_facts(command.file);
   } else if (ending == ".exr") {
@@ -205,6 +262,7 @@ void add_info(CLI::App& program) {
   CLI::App* app = program.add_subcommand("info", "What a .vdb, .nc, .exr or .toml file holds");
   app->add_option("FILE", command->file, "the file")->required();
   app->add_flag("--json", command->json, "for programs");
+  app->add_option("--png", command->png, "OUT.png: a medium from the south, the east and above; the brighter the more light is stopped");
   app->add_option("--cache", command->cache_folder, "folder of the phase tables (default: $XDG_CACHE_HOME/arcus/phase)");
   app->callback([command] { run(*command); });
 }

@@ -26,7 +26,7 @@ struct Kind {
   bool ends_inside;   ///< clouds keep away from the border of the domain
 };
 Kind kind_of(const CloudSettings& s) {
-  Kind kind = s.kind == "cumulus"         ? Kind{1000, 0.3, 1400, 0.35, 0.6, 0.0, true}
+  Kind kind = s.kind == "cumulus"         ? Kind{1000, 0.3, 1100, 0.55, 0.5, 0.0, true}
               : s.kind == "stratocumulus" ? Kind{350, 0.9, 900, 0.3, 0.5, 0.4, false}
                                           : Kind{300, 1.0, 1500, 0.12, 0.5, 0.8, false};
   if (s.depth_m > 0) kind.depth_m = s.depth_m;
@@ -59,7 +59,7 @@ class Cloud {
     const double rough = std::min(1.0, 0.35 + 1.3 * height);
     const double billow = std::fabs(billows_.fractal(p * (1 / size_m), static_cast<int>(s_.octaves), 0.55));
     // Above 0 inside. |noise| has its creases outward, as cauliflowers have.
-    const double inside = top(p.x, p.y) - height - kind_.detail * rough * (0.9 - 0.75 * std::min(billow, 1.6));
+    const double inside = top(p.x, p.y) - height - kind_.detail * rough * (0.75 - 0.75 * std::min(billow, 1.6));
     if (inside <= 0) return 0;
     // Mixing with dry air makes an edge of a few tens of metres.
     const double edge = smooth_step(inside * kind_.depth_m / 50);
@@ -78,11 +78,11 @@ class Cloud {
     const double width = std::min({0.5 * kind_.cell_m, 0.2 * width_x_m_, 0.2 * width_y_m_});
     return 4 * (1 - smooth_step(from_border / width));
   }
-  /// Relative height that the cloud above a place would reach without billows; at most 1 and some.
+  /// Relative height that the cloud above a place would reach without billows.
   double top(double x, double y) const {
     const double above = (strength(x, y) - threshold_) / (largest_ - threshold_);
     if (above <= 0) return -1;
-    return kind_.least_top + (1 + 0.5 * kind_.detail - kind_.least_top) * std::pow(above, kind_.top_power);
+    return kind_.least_top + (1 - kind_.least_top) * std::pow(above, kind_.top_power);
   }
   /// The threshold that leaves the wanted share of the domain.
   void find_threshold() {
@@ -113,9 +113,9 @@ void list_keys(Keys& keys, CloudSettings& cloud) {
   keys.number("base_m", cloud.base_m, at_least(0), "height of the condensation level above the ground");
   keys.number("depth_m", cloud.depth_m, at_least(0), "of the deepest cloud; 0: 1000 for cumulus, 350 for stratocumulus, 300 for stratus");
   keys.number("cover", cloud.cover, between(0, 1), "share of the domain under cloud; 0: 0.3 for cumulus, 0.9 for stratocumulus, 1 for stratus");
-  keys.number("cell_m", cloud.cell_m, at_least(0), "distance between clouds, or cells of a deck; 0: 1400 for cumulus, 900 for stratocumulus, 1500 for stratus");
+  keys.number("cell_m", cloud.cell_m, at_least(0), "distance between clouds, or cells of a deck; 0: 1100 for cumulus, 900 for stratocumulus, 1500 for stratus");
   keys.number("voxel_m", cloud.voxel_m, above(0), "edge of the voxels");
-  keys.number("detail", cloud.detail, between(0, 1), "how deep billows go, in depths of the cloud; 0: 0.35 for cumulus, 0.3 for stratocumulus, 0.12 for stratus");
+  keys.number("detail", cloud.detail, between(0, 1), "how deep billows go, in depths of the cloud; 0: 0.55 for cumulus, 0.3 for stratocumulus, 0.12 for stratus");
   keys.integer("octaves", cloud.octaves, between(1, 12), "each halves the size of the billows");
   keys.number("liquid_gradient_g_per_m3_km", cloud.liquid_gradient_g_per_m3_km, above_up_to(0, 5),
               "how adiabatic liquid water grows with height: 1 in cold air, 2.5 in warm");

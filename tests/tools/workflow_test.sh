@@ -25,6 +25,16 @@ expect 0 'rain.extinction' "$ARCUS" info shower.vdb
 "$ARCUS" info again.vdb --json | grep -v '"file"' >two.json
 check 'settings and options author different showers' cmp one.json two.json
 check 'info --json is no JSON' is_json one.json
+"$ARCUS" author rain -o again.vdb --settings shower.toml 2>said.txt
+tonnes=$(sed -n 's/^again.vdb: \([0-9.e+]*\) t of water.*/\1/p' said.txt)
+kilograms=$("$ARCUS" info again.vdb --png views.png | sed -n 's/^water_kg: //p')
+check 'author and info tell the same mass of water' awk -v t="$tonnes" -v kg="$kilograms" 'BEGIN { exit !(t > 0 && kg / t / 1000 > 0.99 && kg / t / 1000 < 1.01) }'
+check 'info --png makes a PNG' is_png views.png
+for kind in cumulus stratocumulus stratus; do
+  expect 0 'effective radius' "$ARCUS" author cloud --kind "$kind" --size-m 1500 --voxel-m 50 -o cloud.vdb
+done
+expect 0 'effective radius' "$ARCUS" author fog --size-m 200 --voxel-m 10 -o fog.vdb
+expect 0 'size_um = \[' "$ARCUS" info fog.vdb
 expect 0 'Usage' "$ARCUS" author rain --help
 printf '0,0,0,0.5\n1,0,0,0.25\n0,0,2,0.125\n' >points.csv
 must "$ARCUS" author field --file points.csv -o field.vdb
