@@ -41,7 +41,7 @@ Moments gathered(double wanted, int most, const Sample& sample) {
 
 Moments radiance(const Scene& scene, double view_cosine, double azimuth_deg) {
   const VolumePath integrator(scene, 1000000);
-  return gathered(0.0017, 60, [&](Random& random) {
+  return gathered(0.0017, 45, [&](Random& random) {
     const Wavelengths wavelengths = draw_wavelengths(random.uniform_double());
     const FirstNumbers first{0.5, 0.5, 0.5, random.uniform_double(), random.uniform_double()};
     return integrator.radiance(slab_ray(view_cosine, azimuth_deg), wavelengths, first, random).mean();
@@ -51,7 +51,7 @@ Moments radiance(const Scene& scene, double view_cosine, double azimuth_deg) {
 /// Diffuse flux through a face per irradiance on the layer: view cosines with density 2μ, all azimuths.
 Moments flux(const Scene& scene, double side, double sun_cosine) {
   const VolumePath integrator(scene, 1000000);
-  return gathered(0.0017, 30, [&](Random& random) {
+  return gathered(0.0017, 20, [&](Random& random) {
     // The few rays that look straight into the sun are drawn anew: the direct beam is known.
     media::Ray ray;
     do ray = slab_ray(side * std::sqrt(1 - random.uniform_double()), 360 * random.uniform_double());
