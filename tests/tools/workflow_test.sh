@@ -82,13 +82,14 @@ check 'a profile has bins' test "$(wc -l <profile.csv)" -gt 5
 check 'a chart beside the CSV' is_png profile.png
 
 # Interrupted: a valid picture of what is done, exit code 130 or 143, and a checkpoint where one is asked for.
-interrupt() {  # interrupt SIGNAL CODE OPTIONS...: renders for half a second
+interrupt() {  # interrupt SIGNAL CODE OPTIONS...: renders until samples are reported, and a little longer
   local signal=$1 code=$2 found
   shift 2
   checks=$((checks + 1))
-  "$ARCUS" render box.toml -o cut.exr --no-png --quiet "$@" 2>"$work/.stderr" &
-  local process=$!
-  sleep 0.5
+  "$ARCUS" render box.toml -o cut.exr --no-png --progress json "$@" 2>"$work/.stderr" &
+  local process=$! tries=0
+  until grep -q '^{' "$work/.stderr" || [ $((tries++)) -gt 300 ]; do sleep 0.1; done
+  sleep 0.2
   kill "-$signal" "$process"
   wait "$process"
   found=$?
@@ -100,7 +101,7 @@ expect 0 'samples_per_pixel' "$ARCUS" info cut.exr
 absent cut.exr.checkpoint
 interrupt TERM 143 --spp 4000 --resume
 check 'a checkpoint is left' test -s cut.exr.checkpoint
-for _ in 1 2 3; do "$ARCUS" render box.toml -o cut.exr --spp 4000 --resume --time-limit 0.3 --no-png --quiet; done
+for _ in 1 2 3; do "$ARCUS" render box.toml -o cut.exr --spp 4000 --resume --time-limit 0.5 --no-png --quiet; done
 expect 3 'another picture' "$ARCUS" render box.toml -o cut.exr --spp 4001 --resume
 must "$ARCUS" render box.toml -o cut.exr --spp 4000 --resume --no-png --threads 1
 absent cut.exr.checkpoint
@@ -108,7 +109,7 @@ must "$ARCUS" render box.toml -o whole.exr --spp 4000 --no-png
 check 'resumed and whole pictures differ' bash -c "'$ARCUS' compare cut.exr whole.exr | grep -qE '^R .* 0 +0 +0 '"
 # Ctrl-C: shells start background jobs with SIGINT ignored, so the program is started with it set anew.
 checks=$((checks + 1))
-timeout --preserve-status --signal INT 0.7 "$ARCUS" render box.toml -o int.exr --spp 1000000 --no-png --quiet 2>"$work/.stderr"
+timeout --preserve-status --signal INT 4 "$ARCUS" render box.toml -o int.exr --spp 1000000 --no-png --quiet 2>"$work/.stderr"
 found=$?
 [ $found -eq 130 ] || complain "Ctrl-C ended a render with $found, not 130"
 expect 0 'samples_per_pixel' "$ARCUS" info int.exr

@@ -137,13 +137,13 @@ TEST(SpeciesCache, LiesWhereUsersOfLinuxExpectIt) {
   const std::string saved_home = home ? home : "";
   const char* cache = std::getenv("XDG_CACHE_HOME");
   const std::string saved_cache = cache ? cache : "";
-  ::setenv("HOME", "/home/somebody", 1);
+  ::setenv("HOME", "/users/somebody", 1);
   ::unsetenv("XDG_CACHE_HOME");
-  EXPECT_EQ(default_cache_folder(), "/home/somebody/.cache/arcus/phase");
+  EXPECT_EQ(default_cache_folder(), "/users/somebody/.cache/arcus/phase");
   ::setenv("XDG_CACHE_HOME", "/fast", 1);
   EXPECT_EQ(default_cache_folder(), "/fast/arcus/phase");
   ::setenv("XDG_CACHE_HOME", "relative", 1);  // to be ignored: XDG Base Directory Specification
-  EXPECT_EQ(default_cache_folder(), "/home/somebody/.cache/arcus/phase");
+  EXPECT_EQ(default_cache_folder(), "/users/somebody/.cache/arcus/phase");
   ::unsetenv("XDG_CACHE_HOME");
   ::unsetenv("HOME");
   EXPECT_EQ(default_cache_folder(), "");
