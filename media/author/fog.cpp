@@ -6,17 +6,13 @@
 #include "media/author/droplets.h"
 #include "media/author/fill.h"
 #include "media/author/noise.h"
+#include "media/author/smooth_step.h"
 #include "phase/base/error.h"
 #include "phase/settings/number_text.h"
 #include "phase/species/recipe.h"
 
 namespace arcus::media {
 namespace {
-
-double smooth_step(double t) {
-  t = std::clamp(t, 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
 
 /// What a kind means where the settings say 0. (Visibility is 3.9 over the extinction: 90 and 50 m.)
 struct Kind {

@@ -1,11 +1,11 @@
 #include "media/author/rain.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "media/author/fill.h"
 #include "media/author/noise.h"
+#include "media/author/smooth_step.h"
 #include "phase/base/error.h"
 #include "phase/base/frame.h"
 #include "phase/base/units.h"
@@ -18,14 +18,8 @@ namespace arcus::media {
 namespace {
 
 constexpr double water_kg_per_m3 = 1000;
-constexpr double most_voxels = 2e9;
 // Rain below this share of the core's rate is left out: it stops a thousandth of the light at most.
 constexpr double least_share = 1e-3;
-
-double smooth_step(double t) {
-  t = std::clamp(t, 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
 
 /// The shower as a function of position.
 class Shower {
@@ -165,72 +159,28 @@ AuthoredRain author_rain(const RainSettings& settings) {
     box.include(Vec3(wind.x * drift - wide, wind.y * drift - wide, 0));
     box.include(Vec3(wind.x * drift + wide, wind.y * drift + wide, settings.cloud_base_m));
   }
-  const Vec3 voxels = box.size() * (1 / h);
-  if (voxels.x * voxels.y * voxels.z > most_voxels)
-    throw bad_input("voxel_m", number_text(h), "at most 2e9 voxels must fill the shower's box of " +
-                        number_text(std::round(box.size().x)) + " x " + number_text(std::round(box.size().y)) + " x " +
-                        number_text(std::round(box.size().z)) + " m");
-
   AuthoredRain result;
   // Voxel (i, j, k) stands in the middle of its cube; the ground is a face of the lowest ones.
   result.species.world_from_index =
       Affine::translation(settings.centre_m) * Affine::scaling(Vec3(h)) * Affine::translation(Vec3(0.5));
   result.species.name = settings.name;
-  constexpr int edge = SparseGrid::brick_edge;
-  const auto brick_of = [&](double metres) { return static_cast<int>(std::floor(metres / h / edge)); };
-  struct Work {
-    Coord origin;
-    NewBrick extinction, size;
-    double water_kg = 0, largest_rain = 0;
-    bool is_empty = true;
-  };
-  std::vector<Coord> origins;
-  for (int x = brick_of(box.low.x); x <= brick_of(box.high.x); ++x)
-    for (int y = brick_of(box.low.y); y <= brick_of(box.high.y); ++y)
-      for (int z = 0; z <= brick_of(box.high.z); ++z) origins.push_back({x * edge, y * edge, z * edge});
-
-  // In batches, so that empty bricks take no memory for long.
-  constexpr std::size_t batch = 4096;
-  for (std::size_t first = 0; first < origins.size(); first += batch) {
-    std::vector<Work> works(std::min(batch, origins.size() - first));
-    tbb::parallel_for(std::size_t{0}, works.size(), [&](std::size_t b) {
-      Work& work = works[b];
-      work.origin = origins[first + b];
-      work.extinction = {work.origin, {}};
-      work.size = {work.origin, {}};
-      for (int i = 0; i < SparseGrid::brick_voxels; ++i) {
-        const Vec3 index(work.origin.x + (i >> 6), work.origin.y + (i >> 3 & 7), work.origin.z + (i & 7));
-        const double rain = shower.rain_mm_per_hour((index + Vec3(0.5)) * h);
-        if (rain < least_share * settings.rain_mm_per_hour) continue;
-        const RainDrops drops = shower.drops(rain);
-        const auto at = static_cast<std::size_t>(i);
-        work.extinction.values[at] = static_cast<float>(drops.extinction_per_m);
-        work.size.values[at] = static_cast<float>(drops.effective_radius_um);
-        work.water_kg += drops.extinction_per_m * m_from_um(drops.effective_radius_um) * water_kg_per_m3 / 1.5 * h * h * h;
-        work.largest_rain = std::max(work.largest_rain, rain);
-        work.is_empty = false;
-      }
-    });
-    for (Work& work : works) {
-      if (work.is_empty) continue;
-      result.water_kg += work.water_kg;
-      result.largest_rain_mm_per_hour = std::max(result.largest_rain_mm_per_hour, work.largest_rain);
-      result.species.extinction.push_back(work.extinction);
-      result.species.size.push_back(work.size);
-    }
-  }
+  const auto index_of = [&](double metres) { return static_cast<int>(std::floor(std::clamp(metres / h, -1e9, 1e9))); };
+  fill({{index_of(box.low.x), index_of(box.low.y), 0}, {index_of(box.high.x), index_of(box.high.y), index_of(box.high.z)}},
+       [&](const Coord& c) -> FilledVoxel {
+         const double rain = shower.rain_mm_per_hour(Vec3(c.x + 0.5, c.y + 0.5, c.z + 0.5) * h);
+         if (rain < least_share * settings.rain_mm_per_hour) return {};
+         const RainDrops drops = shower.drops(rain);
+         return {drops.extinction_per_m, drops.effective_radius_um};
+       },
+       "voxel_m", result.species);
   if (result.species.extinction.empty())
     throw bad_input("rain", "no voxel with rain", "at least one expected",
                     "It evaporates at once (virga_m), or the voxels are larger than the shower");
-  result.smallest_radius_um = std::numeric_limits<float>::max();
-  for (std::size_t b = 0; b < result.species.size.size(); ++b)
-    for (std::size_t i = 0; i < SparseGrid::brick_voxels; ++i) {
-      const float radius = result.species.size[b].values[i];
-      if (radius == 0) continue;
-      result.smallest_radius_um = std::min(result.smallest_radius_um, radius);
-      result.largest_radius_um = std::max(result.largest_radius_um, radius);
-      result.largest_extinction_per_m = std::max(result.largest_extinction_per_m, result.species.extinction[b].values[i]);
-    }
+  const FilledRange range = range_of(result.species);
+  result.smallest_radius_um = range.smallest_size_um;
+  result.largest_radius_um = range.largest_size_um;
+  result.largest_extinction_per_m = range.largest_extinction_per_m;
+  result.water_kg = m_from_um(range.extinction_times_size) * water_kg_per_m3 / 1.5 * h * h * h;
   result.species.recipe = recipe_text(settings, result.smallest_radius_um, result.largest_radius_um);
   result.species.phase_id = phase::recipe_id(phase::recipe_from_text(result.species.recipe, "recipe of the rain"));
   return result;

@@ -52,7 +52,6 @@ struct AuthoredRain {
   double water_kg = 0;
   float largest_extinction_per_m = 0;
   float smallest_radius_um = 0, largest_radius_um = 0;  ///< effective radii
-  double largest_rain_mm_per_hour = 0;
 };
 
 /// Makes the shower, on all cores, equal for any number of them. Throws bad_input where the settings ask for more

@@ -11,7 +11,7 @@ namespace arcus::phase {
 namespace {
 
 /// Raised whenever a table of an unchanged recipe comes out different, so that older ones in a cache are not used.
-constexpr int computation_version = 1;
+constexpr int computation_version = 2;
 
 const std::vector<std::string> types{"hg", "isotropic", "rayleigh", "table", "mie", "rain"};
 

@@ -173,7 +173,8 @@ void VolumePath::scatter(Path& path, const media::Collision& collision, const Wa
     }
     leaving.weight *= value / densities.all[0];
     leaving.density *= densities.all / densities.all[0];
-    leaving.promise = promise(to_sun_share, densities.to_sun[0]);
+    // Of all wavelengths alike: it decides the next share, which must not depend on which of them leads.
+    leaving.promise = promise(to_sun_share, densities.to_sun.mean());
     leaving.ray = media::Ray{collision.position_m, outgoing};
   };
   if (to_sun_share > 0 && random.uniform() < to_sun_share) {

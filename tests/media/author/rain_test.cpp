@@ -110,7 +110,6 @@ TEST(Rain, NarrowDropsHaveTheirRadiusAtTheCoresRate) {
   settings.radius_exponent = 0.5;
   const AuthoredRain rain = author_rain(settings);
   EXPECT_NEAR(rain.largest_radius_um, 350, 1e-3);
-  EXPECT_NEAR(rain.largest_rain_mm_per_hour, 8, 1e-9);
 }
 
 TEST(Rain, EvaporatesOnItsWayAndLightRainFirst) {

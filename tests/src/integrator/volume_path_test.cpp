@@ -4,6 +4,7 @@
 
 #include "media/medium/scatterer.h"
 #include "media/tracking/collision_walk.h"
+#include "phase/species/make_species.h"
 #include "tests/src/integrator/slab.h"
 #include "tests/statistics/seed.h"
 #include "tests/statistics/students_t.h"
@@ -112,6 +113,43 @@ TEST(VolumePath, WideSunIsFoundEquallyByAskingAndByChance) {
     const Moments asked = traced(scene, ray, 100000), chance = traced_by_chance(scene, ray, 300000);
     EXPECT_TRUE(statistics::means_agree(asked, chance, {.comparisons = 2})) << "radius " << radius_deg;
     EXPECT_LT(chance.standard_error(), 0.03 * chance.mean());
+  }
+}
+
+/// Rings of droplets are far apart at different wavelengths: whichever leads a path, each must get its own mean.
+TEST(VolumePath, LeadingWavelengthsDoNotBiasTheOthers) {
+  const phase::Recipe recipe = phase::recipe_from_text(
+      "type = 'mie'\nsize_um = 6\nradii = 1500\ndistribution = { variance = 0.05 }\n"
+      "wavelength_nm = { min = 440, max = 680, nodes = 4 }", "test");
+  media::Component layer;
+  layer.box = media::Box{Vec3(-5e5, -5e5, 0), Vec3(5e5, 5e5, 1)};
+  layer.extinction_scale = 4;
+  layer.size_um = 6;
+  layer.species = phase::make_species(recipe, {.sun_angular_radius_rad = radians(0.2666)});
+  std::vector<media::Component> components{layer};
+  Scene scene = slab_scene({.optical_depth = 4});
+  scene.medium = std::make_unique<media::Medium>(std::move(components));
+  const VolumePath integrator(scene, 1000);
+  const media::Ray ray = slab_ray(-0.65, 0);  // from below, some degrees beside the sun
+  constexpr float nm[] = {450, 520, 590, 660};
+  constexpr int count = 16000;
+  for (int colour = 0; colour < wavelength_count; ++colour) {
+    Moments alone, among;
+    for (int i = 0; i < count; ++i) {
+      const auto sample = static_cast<std::uint32_t>(i);
+      Random random(statistics::test_seed(), static_cast<std::uint64_t>(colour), sample);
+      const FirstNumbers first{0.5, 0.5, 0.5, 0, random.uniform_double()};
+      Wavelengths same, mixed;
+      const int leader = i % wavelength_count;
+      for (int j = 0; j < wavelength_count; ++j) {
+        same.nm[static_cast<std::size_t>(j)] = nm[colour];
+        mixed.nm[static_cast<std::size_t>(j)] = nm[(leader + j) % wavelength_count];
+      }
+      alone.add(integrator.radiance(ray, same, first, random)[0]);
+      among.add(integrator.radiance(ray, mixed, first, random)[(colour - leader + wavelength_count) % wavelength_count]);
+    }
+    EXPECT_TRUE(statistics::means_agree(alone, among, {.comparisons = wavelength_count})) << nm[colour] << " nm";
+    EXPECT_LT(alone.standard_error(), 0.04 * alone.mean());
   }
 }
 
