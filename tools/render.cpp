@@ -83,10 +83,13 @@ void run(const RenderCommand& command) {
   render::write_exr(exr, picture.image);
   if (!command.no_png) render::write_png(png, tone_mapped(picture.image, picture.tone));
 
-  char line[200];
-  std::snprintf(line, sizeof line, "%s%s: %.1f s, %.2f million samples/s%s", exr.c_str(),
+  char line[1000];
+  const double samples = std::max(1.0, picture.run.progress.samples_done - picture.run.progress.samples_before);
+  const render::Work& work = picture.run.work;
+  std::snprintf(line, sizeof line, "%s%s: %.1f s, %.3g million samples/s; a sample: %.3g scatterings, %.3g tentative collisions, %.3g sun rays%s", exr.c_str(),
                 command.no_png ? "" : " and .png", picture.run.progress.seconds,
                 1e-6 * picture.run.progress.samples_per_second(),
+                static_cast<double>(work.scatterings) / samples, static_cast<double>(work.tentative_collisions) / samples, static_cast<double>(work.sun_rays) / samples,
                 picture.run.is_complete ? ""
                 : command.resume        ? ", stopped before it was done; the same command goes on"
                                         : ", stopped before it was done");

@@ -59,8 +59,8 @@ struct VolumePath::Path {
 };
 
 Spectrum VolumePath::radiance(const media::Ray& camera_ray, const Wavelengths& wavelengths, const FirstNumbers& first,
-                              Random& random) const {
-  Spectrum total;
+                              Random& random, Work& work) const {
+  Sample sample{wavelengths, random, work, scene_.sun.light(wavelengths), {}};
   Path path{.ray = camera_ray};
   const auto hit = scene_.surfaces.nearest_hit(path.ray);
   if (hit) path.ray.farthest_m = hit->distance_m;
@@ -71,60 +71,61 @@ Spectrum VolumePath::radiance(const media::Ray& camera_ray, const Wavelengths& w
   if (depth > 0 && depth < most_forced_depth) {
     Path straight = path;
     straight.weight *= static_cast<float>(std::exp(-depth));
-    if (pass(straight, hit, wavelengths, random, total)) follow(straight, wavelengths, random, total);
+    if (pass(straight, hit, sample)) follow(straight, sample);
     path.weight *= static_cast<float>(-std::expm1(-depth));
     auto walk = media::CollisionWalk::forced(*scene_.medium, path.ray, wavelengths, random, depth, first.collision);
-    if (advance(path, walk, hit, wavelengths, random, total)) follow(path, wavelengths, random, total);
-    return total;
+    if (advance(path, walk, hit, sample)) follow(path, sample);
+    return sample.total;
   }
   media::CollisionWalk walk(*scene_.medium, path.ray, wavelengths, random);
-  if (advance(path, walk, hit, wavelengths, random, total)) follow(path, wavelengths, random, total);
-  return total;
+  if (advance(path, walk, hit, sample)) follow(path, sample);
+  return sample.total;
 }
 
-void VolumePath::follow(Path& path, const Wavelengths& wavelengths, Random& random, Spectrum& total) const {
+void VolumePath::follow(Path& path, Sample& sample) const {
   bool goes_on = true;
-  while (goes_on && path.survives_roulette(random)) {
+  while (goes_on && path.survives_roulette(sample.random)) {
     const auto hit = scene_.surfaces.nearest_hit(path.ray);
     if (hit) path.ray.farthest_m = hit->distance_m;
-    media::CollisionWalk walk(*scene_.medium, path.ray, wavelengths, random);
-    goes_on = advance(path, walk, hit, wavelengths, random, total);
+    media::CollisionWalk walk(*scene_.medium, path.ray, sample.wavelengths, sample.random);
+    goes_on = advance(path, walk, hit, sample);
   }
 }
 
-bool VolumePath::advance(Path& path, media::CollisionWalk& walk, const std::optional<Hit>& hit,
-                         const Wavelengths& wavelengths, Random& random, Spectrum& total) const {
+bool VolumePath::advance(Path& path, media::CollisionWalk& walk, const std::optional<Hit>& hit, Sample& sample) const {
   media::Collision collision;
   while (walk.next(collision)) {
-    if (random.uniform() * collision.majorant_per_m < collision.extinction_per_m[0]) {
+    ++sample.work.tentative_collisions;
+    if (sample.random.uniform() * collision.majorant_per_m < collision.extinction_per_m[0]) {
       if (path.bounces++ == max_bounces_) return false;
-      scatter(path, collision, wavelengths, random, total);
+      scatter(path, collision, sample);
       return true;
     }
     path.pass_null_collision(collision);
   }
-  return pass(path, hit, wavelengths, random, total);
+  return pass(path, hit, sample);
 }
 
-bool VolumePath::pass(Path& path, const std::optional<Hit>& hit, const Wavelengths& wavelengths, Random& random,
-                      Spectrum& total) const {
+bool VolumePath::pass(Path& path, const std::optional<Hit>& hit, Sample& sample) const {
   if (!hit) {
-    total += escaped(path, wavelengths);
+    sample.total += escaped(path, sample);
     return false;
   }
   if (path.bounces++ == max_bounces_) return false;
-  reflect(path, *hit, wavelengths, random, total);
+  reflect(path, *hit, sample);
   return true;
 }
 
-Spectrum VolumePath::escaped(const Path& path, const Wavelengths& wavelengths) const {
-  Spectrum light = scene_.sky.radiance(path.ray.direction, wavelengths);
-  if (path.sun_share > 0) light += scene_.sun.radiance(path.ray.direction, wavelengths) * path.sun_share;
+Spectrum VolumePath::escaped(const Path& path, const Sample& sample) const {
+  Spectrum light = scene_.sky.radiance(path.ray.direction, sample.wavelengths);
+  if (path.sun_share > 0) light += scene_.sun.radiance(path.ray.direction, sample.sunlight) * path.sun_share;
   return path.contribution(light);
 }
 
-void VolumePath::scatter(Path& path, const media::Collision& collision, const Wavelengths& wavelengths, Random& random,
-                         Spectrum& total) const {
+void VolumePath::scatter(Path& path, const media::Collision& collision, Sample& sample) const {
+  const Wavelengths& wavelengths = sample.wavelengths;
+  Random& random = sample.random;
+  ++sample.work.scatterings;
   const media::Scatterer scatterer = scene_.medium->scatterer(collision, wavelengths, random.uniform());
   const phase::PhaseFunction& function = scatterer.phase;
   const Spectrum& extinction = collision.component_extinction_per_m;
@@ -150,14 +151,14 @@ void VolumePath::scatter(Path& path, const media::Collision& collision, const Wa
     if (function.includes_sun_disc()) {
       // The disc is in the table; only the way to it is drawn.
       const Spectrum value = function.sunlit_value(sun.to_centre(), incoming, wavelengths);
-      total += path.contribution(value * sun.irradiance_w_per_m2_nm(wavelengths) *
-                                 sun_transmittance(collision.position_m, to_sun, wavelengths, random));
+      sample.total += path.contribution(value * sample.sunlight.irradiance_w_per_m2_nm *
+                                 sun_transmittance(collision.position_m, to_sun, sample));
     } else {
       const Spectrum value = function.value(incoming, to_sun, wavelengths);
       const double asked = path.density.mean() * sun.density_per_sr(to_sun);
       const double found = (path.density * density(to_sun, value).all).mean();
-      total += path.contribution(value * sun.radiance(to_sun, wavelengths) *
-                                 sun_transmittance(collision.position_m, to_sun, wavelengths, random)) *
+      sample.total += path.contribution(value * sun.radiance(to_sun, sample.sunlight) *
+                                 sun_transmittance(collision.position_m, to_sun, sample)) *
                static_cast<float>(path.density.mean() / (asked + found));
     }
   }
@@ -181,14 +182,15 @@ void VolumePath::scatter(Path& path, const media::Collision& collision, const Wa
     Path second = path;
     const Vec3 outgoing = function.draw(sun.to_centre(), wavelengths, random).outgoing;
     leave(second, outgoing, function.value(incoming, outgoing, wavelengths));
-    follow(second, wavelengths, random, total);
+    follow(second, sample);
   }
   const phase::Draw draw = function.draw(incoming, wavelengths, random);
   leave(path, draw.outgoing, draw.value_per_sr);
 }
 
-void VolumePath::reflect(Path& path, const Hit& hit, const Wavelengths& wavelengths, Random& random,
-                         Spectrum& total) const {
+void VolumePath::reflect(Path& path, const Hit& hit, Sample& sample) const {
+  const Wavelengths& wavelengths = sample.wavelengths;
+  Random& random = sample.random;
   const Matte& material = *hit.material;
   const Sun& sun = scene_.sun;
   const float to_sun_share = sun.is_on() && !scene_.medium->is_empty() ? paths_to_sun : 0;
@@ -203,8 +205,8 @@ void VolumePath::reflect(Path& path, const Hit& hit, const Wavelengths& waveleng
     const double value = material.value_per_sr(hit.normal, to_sun);
     if (value > 0) {
       const double cosine = dot(hit.normal, to_sun);
-      total += path.contribution(sun.radiance(to_sun, wavelengths) *
-                                 sun_transmittance(hit.position_m, to_sun, wavelengths, random)) *
+      sample.total += path.contribution(sun.radiance(to_sun, sample.sunlight) *
+                                 sun_transmittance(hit.position_m, to_sun, sample)) *
                static_cast<float>(value * cosine / (sun.density_per_sr(to_sun) + density(to_sun)));
     }
   }
@@ -218,16 +220,16 @@ void VolumePath::reflect(Path& path, const Hit& hit, const Wavelengths& waveleng
   if (to_sun_share > 0 && random.uniform() < to_sun_share) {
     Path second = path;
     leave(second, glow.draw(sun.to_centre(), wavelengths, random).outgoing);
-    follow(second, wavelengths, random, total);
+    follow(second, sample);
   }
   leave(path, material.draw(hit.normal, random.uniform_double(), random.uniform_double()));
 }
 
-Spectrum VolumePath::sun_transmittance(const Vec3& position_m, const Vec3& to_sun, const Wavelengths& wavelengths,
-                                       Random& random) const {
+Spectrum VolumePath::sun_transmittance(const Vec3& position_m, const Vec3& to_sun, Sample& sample) const {
+  ++sample.work.sun_rays;
   const media::Ray ray{position_m, to_sun};
   if (scene_.surfaces.is_blocked(ray)) return {};
-  return media::ratio_transmittance(*scene_.medium, ray, wavelengths, random);
+  return media::ratio_transmittance(*scene_.medium, ray, sample.wavelengths, sample.random);
 }
 
 }  // namespace arcus::render

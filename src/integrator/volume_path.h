@@ -17,35 +17,58 @@
 
 namespace arcus::render {
 
+/// What estimates took, counted.
+struct Work {
+  long long scatterings = 0;            ///< in media
+  long long tentative_collisions = 0;   ///< of paths, real ones included; not those of rays to the sun
+  long long sun_rays = 0;               ///< from points in media and on surfaces
+
+  Work& operator+=(const Work& other) {
+    scatterings += other.scatterings;
+    tentative_collisions += other.tentative_collisions;
+    sun_rays += other.sun_rays;
+    return *this;
+  }
+};
+
 class VolumePath {
  public:
   /// max_bounces: scatterings and reflections a path may have; 0 shows only what is seen directly.
   VolumePath(const Scene& scene, long long max_bounces) : scene_(scene), max_bounces_(max_bounces) {}
 
-  /// An unbiased estimate of the radiance that arrives along the ray against its direction [W m-2 sr-1 nm-1].
+  /// An unbiased estimate of the radiance that arrives along the ray against its direction [W m-2 sr-1 nm-1]. Adds to `work` what
+  /// it took.
   Spectrum radiance(const media::Ray& camera_ray, const Wavelengths& wavelengths, const FirstNumbers& first,
-                    Random& random) const;
+                    Random& random, Work& work) const;
+  Spectrum radiance(const media::Ray& camera_ray, const Wavelengths& wavelengths, const FirstNumbers& first, Random& random) const {
+    Work work;
+    return radiance(camera_ray, wavelengths, first, random, work);
+  }
 
  private:
   struct Path;
+  /// What all parts of one estimate share.
+  struct Sample {
+    const Wavelengths& wavelengths;
+    Random& random;
+    Work& work;
+    SunLight sunlight;
+    Spectrum total;  ///< the estimate so far
+  };
   /// Follows a path until it ends.
-  void follow(Path& path, const Wavelengths& wavelengths, Random& random, Spectrum& total) const;
+  void follow(Path& path, Sample& sample) const;
   /// Follows a path along its ray to the next collision or else to `hit` or out of the scene. False where it ends.
-  bool advance(Path& path, media::CollisionWalk& walk, const std::optional<Hit>& hit, const Wavelengths& wavelengths,
-               Random& random, Spectrum& total) const;
+  bool advance(Path& path, media::CollisionWalk& walk, const std::optional<Hit>& hit, Sample& sample) const;
   /// What follows where the medium let the path through. False where it ends.
-  bool pass(Path& path, const std::optional<Hit>& hit, const Wavelengths& wavelengths, Random& random,
-            Spectrum& total) const;
+  bool pass(Path& path, const std::optional<Hit>& hit, Sample& sample) const;
   /// Light that arrives where the path has left the scene.
-  Spectrum escaped(const Path& path, const Wavelengths& wavelengths) const;
-  /// Scatters in the medium: adds sunlight to `total`, turns the path.
-  void scatter(Path& path, const media::Collision& collision, const Wavelengths& wavelengths, Random& random,
-               Spectrum& total) const;
+  Spectrum escaped(const Path& path, const Sample& sample) const;
+  /// Scatters in the medium: adds sunlight, turns the path.
+  void scatter(Path& path, const media::Collision& collision, Sample& sample) const;
   /// Reflects from a surface: likewise.
-  void reflect(Path& path, const Hit& hit, const Wavelengths& wavelengths, Random& random, Spectrum& total) const;
+  void reflect(Path& path, const Hit& hit, Sample& sample) const;
   /// Share of the sun's light that reaches a point from a direction [0 to 1].
-  Spectrum sun_transmittance(const Vec3& position_m, const Vec3& to_sun, const Wavelengths& wavelengths,
-                             Random& random) const;
+  Spectrum sun_transmittance(const Vec3& position_m, const Vec3& to_sun, Sample& sample) const;
 
   const Scene& scene_;
   long long max_bounces_;

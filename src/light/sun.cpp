@@ -61,15 +61,24 @@ Spectrum Sun::irradiance_w_per_m2_nm(const Wavelengths& wavelengths) const {
   return result;
 }
 
-Spectrum Sun::radiance(const Vec3& direction, const Wavelengths& wavelengths) const {
+SunLight Sun::light(const Wavelengths& wavelengths) const {
+  SunLight light{irradiance_w_per_m2_nm(wavelengths), {}};
+  for (int i = 0; i < wavelength_count; ++i) {
+    const auto coefficients = profile_.coefficients(wavelengths[i]);
+    const double mean = is_on_ ? light.irradiance_w_per_m2_nm[i] / solid_angle_sr_ : 0;
+    for (std::size_t k = 0; k < coefficients.size(); ++k) light.radiance_by_mu[k][i] = static_cast<float>(mean * coefficients[k]);
+  }
+  return light;
+}
+
+Spectrum Sun::radiance(const Vec3& direction, const SunLight& light) const {
   const double s = sin2_half_angle(direction, frame_.along);
-  if (s >= sin2_half_radius_ || !is_on_) return {};
-  // Distance from the disc's centre over its radius, as the disc is seen in projection.
-  const double rho = std::sqrt(s * (1 - s) / (sin2_half_radius_ * (1 - sin2_half_radius_)));
+  if (s >= sin2_half_radius_) return {};
+  // rho: distance from the disc's centre over its radius, as the disc is seen in projection; mu is the cosine on the sun's sphere.
+  const double rho2 = s * (1 - s) / (sin2_half_radius_ * (1 - sin2_half_radius_));
+  const auto mu = static_cast<float>(std::sqrt(std::fmax(0.0, 1 - rho2)));
   Spectrum result;
-  for (int i = 0; i < wavelength_count; ++i)
-    result[i] = static_cast<float>(irradiance_(wavelengths[i]) / solid_angle_sr_ *
-                                   profile_.relative_radiance(std::fmin(rho, 1.0), wavelengths[i]));
+  for (std::size_t k = light.radiance_by_mu.size(); k-- > 0;) result = result * mu + light.radiance_by_mu[k];
   return result;
 }
 

@@ -2,6 +2,7 @@
 // The sun: a disc of given radius with limb darkening and a spectrum. Seen directly, drawn from, and asked for its
 // irradiance.
 
+#include <array>
 #include <string>
 
 #include "phase/base/curve.h"
@@ -27,6 +28,12 @@ void list_keys(Keys& keys, SunSettings& sun);
 /// Throws bad_input for a file that is no such table or has negative values.
 Curve sun_irradiance(const SunSettings& sun, const std::string& folder);
 
+/// The sun's light at a path's four wavelengths: made once a path, asked often.
+struct SunLight {
+  Spectrum irradiance_w_per_m2_nm;           ///< on a surface that faces the sun
+  std::array<Spectrum, 6> radiance_by_mu;    ///< radiance = Σ radiance_by_mu[k] mu^k, mu = √(1 − rho²) [W m-2 sr-1 nm-1]
+};
+
 class Sun {
  public:
   Sun(const SunSettings& settings, Curve irradiance_w_per_m2_nm);
@@ -39,8 +46,9 @@ class Sun {
 
   /// Irradiance on a surface that faces the sun [W m-2 nm-1].
   Spectrum irradiance_w_per_m2_nm(const Wavelengths& wavelengths) const;
+  SunLight light(const Wavelengths& wavelengths) const;
   /// Radiance seen in a direction (unit, from the scene) [W m-2 sr-1 nm-1]; 0 outside the disc.
-  Spectrum radiance(const Vec3& direction, const Wavelengths& wavelengths) const;
+  Spectrum radiance(const Vec3& direction, const SunLight& light) const;
   /// Density of draw() [1/sr] in a direction; 0 outside the disc.
   double density_per_sr(const Vec3& direction) const;
   /// A direction on the disc, uniform in solid angle; u, v in [0, 1).

@@ -9,7 +9,6 @@
 #include <mutex>
 #include <thread>
 
-#include "src/integrator/volume_path.h"
 
 namespace arcus::render {
 namespace {
@@ -79,7 +78,7 @@ RunResult render(const Scene& scene, const RenderSettings& settings, const RunOp
   };
 
   /// Up to the sample `last`, not included; returns how many.
-  const auto render_pixel = [&](int x, int y, long long last) {
+  const auto render_pixel = [&](int x, int y, long long last, Work& work) {
     const long long first = film.next_sample(x, y);
     const auto pixel = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(film.width_px()) +
                        static_cast<std::uint64_t>(x);
@@ -89,13 +88,14 @@ RunResult render(const Scene& scene, const RenderSettings& settings, const RunOp
       Random random(seed, pixel, sample);
       const Wavelengths wavelengths = draw_wavelengths(numbers.wavelength);
       const auto ray = scene.camera->ray(x + numbers.pixel_x, y + numbers.pixel_y);
-      const Spectrum radiance = ray ? integrator.radiance(*ray, wavelengths, numbers, random) : Spectrum();
+      const Spectrum radiance = ray ? integrator.radiance(*ray, wavelengths, numbers, random, work) : Spectrum();
       film.add_sample(x, y, sample, radiance, wavelengths);
     }
     return std::max(last - first, 0LL);
   };
 
   RunResult result;
+  std::mutex work_mutex;
   {
     Reporter reporter(options.report ? std::function<void()>([&] { options.report(progress()); }) : nullptr);
     tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
@@ -118,8 +118,13 @@ RunResult render(const Scene& scene, const RenderSettings& settings, const RunOp
           const int left = area.x0 + block % blocks_x * block_size, top = area.y0 + block / blocks_x * block_size;
           const int right = std::min(left + block_size, area.x1), bottom = std::min(top + block_size, area.y1);
           long long samples = 0;
+          Work work;
           for (int y = top; y < bottom; ++y)
-            for (int x = left; x < right; ++x) samples += render_pixel(x, y, done + pass);
+            for (int x = left; x < right; ++x) samples += render_pixel(x, y, done + pass, work);
+          {
+            const std::lock_guard lock(work_mutex);
+            result.work += work;
+          }
           samples_done += samples;
         });
       });

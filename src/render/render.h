@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "src/film/film.h"
+#include "src/integrator/volume_path.h"
 #include "src/scene/scene.h"
 #include "src/scene/settings.h"
 
@@ -39,6 +40,7 @@ struct RunOptions {
 /// What came of it.
 struct RunResult {
   bool is_complete = true;  ///< false: stopped or out of time; the film holds what is done
+  Work work;                ///< of this run
   Progress progress;
 };
 

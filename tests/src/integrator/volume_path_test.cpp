@@ -53,7 +53,7 @@ Moments traced_by_chance(const Scene& scene, const media::Ray& ray, int count) {
       weight *= hit->material->albedo();
       path = {hit->position_m, hit->material->draw(hit->normal, random.uniform_double(), random.uniform_double())};
     }
-    moments.add(weight * scene.sun.radiance(path.direction, wavelengths).mean());
+    moments.add(weight * scene.sun.radiance(path.direction, scene.sun.light(wavelengths)).mean());
   }
   return moments;
 }
