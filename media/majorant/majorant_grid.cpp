@@ -198,7 +198,7 @@ MajorantGrid::MajorantGrid(const std::vector<MajorantSource>& given, const Major
       break;
     }
     edge *= 2;
-    levels = std::min(levels + 1, 6);
+    levels = std::min(levels + 1, most_levels);
   }
   const Affine world_from_block = world_from_frame * Affine::translation(base) * Affine::scaling(edge);
   block_from_world_ = world_from_block.inverse();

@@ -1,10 +1,11 @@
 #pragma once
 // The cells along a ray, in order, without gaps: empty ones are passed over, the others are handed out one at a time.
-// Amanatides & Woo, "A Fast Voxel Traversal Algorithm for Ray Tracing", Eurographics 1987, on two levels.
+//
+// In a dense cloud a ray ends after a cell or two, so a walk must begin as cheaply as it goes on. It keeps no state but its place
+// in the finest lattice that blocks may have; each step looks up block and cell anew and computes where the ray leaves that cube.
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 
 #include "media/majorant/majorant_grid.h"
 #include "media/space/ray.h"
@@ -24,73 +25,60 @@ class MajorantWalk {
 
   /// Goes on to the next cell that is not empty; false where the ray has left the grid or ends.
   bool next(Segment& segment) {
-    while (true) {
-      while (in_block_) {
-        const MajorantGrid::Cell cell = cells_[cell_.index];
-        const double begin = place_m_, end = cell_.step();
-        in_block_ = end < leave_block_m_;
-        place_m_ = in_block_ ? end : block_end_m_;
-        if (cell.majorant_per_m > 0 && begin < place_m_) {
-          segment = {begin, place_m_, cell.majorant_per_m, cell.minorant_per_m};
-          return true;
-        }
+    while (place_m_ < end_m_) {
+      const MajorantGrid::Block& block =
+          blocks_[static_cast<std::size_t>(at_[0] >> finest) * stride_[0] + static_cast<std::size_t>(at_[1] >> finest) * stride_[1] +
+                  static_cast<std::size_t>(at_[2] >> finest)];
+      const auto level = static_cast<int>(block.level);
+      const int shift = finest - level;
+      MajorantGrid::Cell cell{block.majorant_per_m, block.minorant_per_m};
+      if (level > 0) {
+        const std::int32_t mask = (1 << level) - 1;
+        const std::int32_t index = ((((at_[0] >> shift) & mask) << level | ((at_[1] >> shift) & mask)) << level) | ((at_[2] >> shift) & mask);
+        cell = cells_[block.first_cell + static_cast<std::uint32_t>(index)];
       }
-      if (!(place_m_ < end_m_)) return false;
-      const MajorantGrid::Block block = blocks_[block_.index];
-      const double low[3] = {block_low_[0], block_low_[1], block_low_[2]}, begin = place_m_;
-      const double end = step_to_next_block();
-      block_end_m_ = end < leave_grid_m_ ? end : end_m_;
-      if (block.level > 0) {
-        enter(block, low);
-        continue;
-      }
-      place_m_ = block_end_m_;
-      if (block.majorant_per_m > 0 && begin < place_m_) {
-        segment = {begin, place_m_, block.majorant_per_m, block.minorant_per_m};
+      const double begin_m = place_m_;
+      place_m_ = std::min(step(shift), end_m_);
+      if (cell.majorant_per_m > 0 && begin_m < place_m_) {
+        segment = {begin_m, place_m_, cell.majorant_per_m, cell.minorant_per_m};
         return true;
       }
     }
+    return false;
   }
 
  private:
-  /// A lattice of cubes: where the ray leaves the present one through each pair of faces, and what changes then.
-  struct Lattice {
-    double crossing_m[3], spacing_m[3];
-    std::int32_t stride[3];
-    std::uint32_t index;
+  static constexpr int finest = MajorantGrid::most_levels;  // log2 of the finest lattice's cubes along a block's edge
 
-    /// Steps into the next cube (diagonally where the ray meets an edge); returns where the present one ends.
-    double step() {
-      const double end = std::min(std::min(crossing_m[0], crossing_m[1]), crossing_m[2]);
-      const bool x = crossing_m[0] <= end, y = crossing_m[1] <= end, z = crossing_m[2] <= end;
-      index += static_cast<std::uint32_t>((x ? stride[0] : 0) + (y ? stride[1] : 0) + (z ? stride[2] : 0));
-      crossing_m[0] += x ? spacing_m[0] : 0;
-      crossing_m[1] += y ? spacing_m[1] : 0;
-      crossing_m[2] += z ? spacing_m[2] : 0;
-      return end;
+  /// Leaves the cube of edge 2^shift around at_; returns where.
+  double step(int shift) {
+    std::int32_t low[3];
+    double leave_m[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = at_[axis] >> shift << shift;
+      leave_m[axis] = (low[axis] + (ahead_[axis] << shift) - origin_[axis]) * inverse_[axis];
     }
-  };
-  double step_to_next_block() {
-    const double x = block_.crossing_m[0], y = block_.crossing_m[1], z = block_.crossing_m[2];
-    const double end = block_.step();
-    block_low_[0] += x <= end ? heading_[0] : 0;
-    block_low_[1] += y <= end ? heading_[1] : 0;
-    block_low_[2] += z <= end ? heading_[2] : 0;
-    return end;
+    const double leave = std::min(std::min(leave_m[0], leave_m[1]), leave_m[2]);
+    bool is_inside = true;
+    for (int axis = 0; axis < 3; ++axis) {
+      // Across the face, or (elsewhere) wherever the ray has come to within the cube; through an edge, diagonally.
+      const std::int32_t across = low[axis] + (ahead_[axis] ? 1 << shift : -1);
+      const auto within = std::clamp(static_cast<std::int32_t>(origin_[axis] + direction_[axis] * leave), low[axis], low[axis] + (1 << shift) - 1);
+      at_[axis] = leave_m[axis] <= leave ? across : within;
+      is_inside &= static_cast<std::uint32_t>(at_[axis]) < limit_[axis];
+    }
+    if (!is_inside) end_m_ = std::min(end_m_, leave);
+    return std::max(leave, place_m_);
   }
-  void enter(const MajorantGrid::Block& block, const double low[3]);
-  void place(Lattice& lattice, const double low[3], const std::int32_t count[3], double cells_per_block);
 
   const MajorantGrid::Block* blocks_;
-  const MajorantGrid::Cell* all_cells_;
-  const MajorantGrid::Cell* cells_ = nullptr;  // of the present block
-  bool in_block_ = false;
-  double place_m_ = 0, end_m_ = 0, block_end_m_ = 0;
-  // A crossing this near to the end of the block or grid is that end: sums of spacings are not exact.
-  double leave_block_m_ = 0, leave_grid_m_ = 0;
-  Lattice cell_, block_;
-  double block_low_[3];                                        // the present block's first corner
-  double origin_[3], direction_[3], inverse_[3], heading_[3];  // in block coordinates; heading: -1, 0 or 1
+  const MajorantGrid::Cell* cells_;
+  double place_m_ = 0, end_m_ = 0;
+  std::int32_t at_[3];                                // the finest lattice's cube
+  std::int32_t ahead_[3];                             // 1: towards larger coordinates, or along them
+  double origin_[3], direction_[3], inverse_[3];      // in the finest lattice
+  std::uint32_t limit_[3];
+  std::size_t stride_[2];
 };
 
 }  // namespace arcus::media

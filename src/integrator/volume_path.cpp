@@ -10,12 +10,29 @@ namespace {
 /// Expected tentative collisions of a camera ray below which it is split. Above, hardly anything passes straight on.
 constexpr double most_forced_depth = 3;
 
-/// Light that has been scattered straight on by peaked phase functions arrives from around the sun. Paths that go there by
-/// chance alone are rare and bright, so at this share of their turns a second path sets out on purpose for where the
-/// phase function, seen from the sun, is bright. Both count by the balance heuristic for several samples (Veach and Guibas 1995), which
-/// takes nothing from paths that go elsewhere. (Buras and Mayer, "Efficient unbiased variance reduction techniques for Monte Carlo
-/// simulations of radiative transfer in cloudy atmospheres", JQSRT 112, 434, 2011, send the path itself that way.)
-constexpr float paths_to_sun = 0.5f;
+// Light that has been scattered straight on by peaked phase functions arrives from around the sun. Paths that go there by
+// chance alone are rare and bright, so some set out on purpose for where the phase function, seen from the sun, is bright. All
+// ways count by the balance heuristic for several samples (Veach and Guibas 1995). (Buras and Mayer, "Efficient unbiased variance
+// reduction techniques for Monte Carlo simulations of radiative transfer in cloudy atmospheres", JQSRT 112, 434, 2011.) The figures
+// of this and of what follows are those that served best in docs/performance.md.
+
+/// Share of the turns at which a second path sets out for the sun beside the first, which takes nothing from paths that go
+/// elsewhere; fewer where the path goes to the sun already.
+constexpr float paths_to_sun = 0.2f;
+/// Such a path that goes to the sun already does so again at this share of its turns: without, the few that come very near to
+/// the sun would be far too bright.
+constexpr float again_to_sun = 0.3f;
+
+/// Paths expected to bring less than this, in units of the mean over all directions, are left to chance; those that are
+/// expected to bring more than the other are split.
+constexpr float roulette_below = 0.2f, split_above = 0.7f;
+constexpr int most_splits = 50;
+
+/// Rays to the sun expected to bring less than this are left to chance, at least one in fifty being sent.
+constexpr float enough_for_sun_ray = 0.2f, least_sun_rays = 0.02f;
+/// The coarse optical depth overlooks holes: this share of it is believed.
+constexpr float believed_depth = 0.7f;
+
 /// Where surfaces send them: about as wide as the glow around the sun in cloud and rain.
 const phase::PhaseFunction glow{phase::HenyeyGreenstein(0.95)};
 
@@ -47,16 +64,24 @@ struct VolumePath::Path {
     density *= ratio;
   }
 
+  /// What it is expected to bring, in units of the mean over all directions.
+  float expectation() const { return weight.max() / density.mean() * promise; }
+
   /// Ends paths that have little left to bring; the survivors take over (Arvo and Kirk 1990).
   bool survives_roulette(Random& random) {
-    constexpr float enough = 0.25f;
-    const float left = weight.max() / density.mean() * promise;
-    if (left >= enough) return true;
-    if (!(left > 0) || random.uniform() * enough >= left) return false;
-    weight *= enough / left;
+    const float left = expectation();
+    if (left >= roulette_below) return true;
+    if (!(left > 0) || random.uniform() * roulette_below >= left) return false;
+    weight *= roulette_below / left;
     return true;
   }
+
+  /// How many the path is worth.
+  int splits() const { return static_cast<int>(std::clamp(2 / split_above * expectation(), 1.f, static_cast<float>(most_splits))); }
 };
+
+VolumePath::VolumePath(const Scene& scene, long long max_bounces)
+    : scene_(scene), max_bounces_(max_bounces), sun_reach_(*scene.medium, scene.sun.to_centre()) {}
 
 Spectrum VolumePath::radiance(const media::Ray& camera_ray, const Wavelengths& wavelengths, const FirstNumbers& first,
                               Random& random, Work& work) const {
@@ -85,6 +110,14 @@ Spectrum VolumePath::radiance(const media::Ray& camera_ray, const Wavelengths& w
 void VolumePath::follow(Path& path, Sample& sample) const {
   bool goes_on = true;
   while (goes_on && path.survives_roulette(sample.random)) {
+    if (path.expectation() > split_above) {
+      const int parts = path.splits();
+      path.weight *= 1 / static_cast<float>(parts);
+      for (int i = 1; i < parts; ++i) {
+        Path part = path;
+        follow(part, sample);
+      }
+    }
     const auto hit = scene_.surfaces.nearest_hit(path.ray);
     if (hit) path.ray.farthest_m = hit->distance_m;
     media::CollisionWalk walk(*scene_.medium, path.ray, sample.wavelengths, sample.random);
@@ -136,6 +169,7 @@ void VolumePath::scatter(Path& path, const media::Collision& collision, Sample& 
 
   // Where the path goes to the sun already, its own turns look there.
   const float to_sun_share = sun.is_on() && function.is_peaked() ? paths_to_sun / path.promise : 0;
+  const float again_share = to_sun_share > 0 && path.promise > 1 ? again_to_sun : 0;
   // Expected number of paths that leave in a direction, a steradian, and what of them was meant for the sun.
   struct Density {
     Spectrum all, to_sun;
@@ -143,23 +177,33 @@ void VolumePath::scatter(Path& path, const media::Collision& collision, Sample& 
   const auto density = [&](const Vec3& outgoing, const Spectrum& value) -> Density {
     if (to_sun_share == 0) return {value, {}};
     const Spectrum to_sun = function.value(sun.to_centre(), outgoing, wavelengths);
-    return {value + to_sun * to_sun_share, to_sun};
+    return {value * (1 - again_share) + to_sun * (to_sun_share + again_share), to_sun};
   };
 
+  // 0 for rays to the sun that are not sent; what the others stand for.
+  const auto sun_ray_weight = [&](const Spectrum& value) -> float {
+    const float mean_or_more = 4 * static_cast<float>(pi) * value.max();
+    const float transmittance = std::exp(-believed_depth * sun_reach_.optical_depth(collision.position_m));
+    const float expected = path.weight.max() / path.density.mean() * mean_or_more * transmittance;
+    const float probability = std::clamp(expected / enough_for_sun_ray, least_sun_rays, 1.f);
+    return probability == 1 ? 1 : random.uniform() < probability ? 1 / probability : 0;
+  };
   if (sun.is_on()) {
     const Vec3 to_sun = sun.draw(random.uniform_double(), random.uniform_double());
     if (function.includes_sun_disc()) {
       // The disc is in the table; only the way to it is drawn.
       const Spectrum value = function.sunlit_value(sun.to_centre(), incoming, wavelengths);
-      sample.total += path.contribution(value * sample.sunlight.irradiance_w_per_m2_nm *
-                                 sun_transmittance(collision.position_m, to_sun, sample));
+      if (const float weight = sun_ray_weight(value); weight > 0)
+        sample.total += path.contribution(value * sample.sunlight.irradiance_w_per_m2_nm *
+                                          sun_transmittance(collision.position_m, to_sun, sample)) * weight;
     } else {
       const Spectrum value = function.value(incoming, to_sun, wavelengths);
       const double asked = path.density.mean() * sun.density_per_sr(to_sun);
       const double found = (path.density * density(to_sun, value).all).mean();
-      sample.total += path.contribution(value * sun.radiance(to_sun, sample.sunlight) *
-                                 sun_transmittance(collision.position_m, to_sun, sample)) *
-               static_cast<float>(path.density.mean() / (asked + found));
+      if (const float weight = sun_ray_weight(value); weight > 0)
+        sample.total += path.contribution(value * sun.radiance(to_sun, sample.sunlight) *
+                                          sun_transmittance(collision.position_m, to_sun, sample)) *
+                        static_cast<float>(weight * path.density.mean() / (asked + found));
     }
   }
 
@@ -183,6 +227,11 @@ void VolumePath::scatter(Path& path, const media::Collision& collision, Sample& 
     const Vec3 outgoing = function.draw(sun.to_centre(), wavelengths, random).outgoing;
     leave(second, outgoing, function.value(incoming, outgoing, wavelengths));
     follow(second, sample);
+  }
+  if (again_share > 0 && random.uniform() < again_share) {
+    const Vec3 outgoing = function.draw(sun.to_centre(), wavelengths, random).outgoing;
+    leave(path, outgoing, function.value(incoming, outgoing, wavelengths));
+    return;
   }
   const phase::Draw draw = function.draw(incoming, wavelengths, random);
   leave(path, draw.outgoing, draw.value_per_sr);

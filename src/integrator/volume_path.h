@@ -13,6 +13,7 @@
 #include "media/tracking/collision_walk.h"
 #include "phase/base/random.h"
 #include "src/integrator/sample_points.h"
+#include "src/integrator/sun_reach.h"
 #include "src/scene/scene.h"
 
 namespace arcus::render {
@@ -34,7 +35,7 @@ struct Work {
 class VolumePath {
  public:
   /// max_bounces: scatterings and reflections a path may have; 0 shows only what is seen directly.
-  VolumePath(const Scene& scene, long long max_bounces) : scene_(scene), max_bounces_(max_bounces) {}
+  VolumePath(const Scene& scene, long long max_bounces);
 
   /// An unbiased estimate of the radiance that arrives along the ray against its direction [W m-2 sr-1 nm-1]. Adds to `work` what
   /// it took.
@@ -72,6 +73,7 @@ class VolumePath {
 
   const Scene& scene_;
   long long max_bounces_;
+  SunReach sun_reach_;
 };
 
 }  // namespace arcus::render
