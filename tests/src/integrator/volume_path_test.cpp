@@ -110,7 +110,7 @@ TEST(VolumePath, WideSunIsFoundEquallyByAskingAndByChance) {
                       .surfaces = Surfaces({{"ground", {"plane", -20}, {"matte", 0.5}}}),
                       .camera = nullptr};
     const media::Ray ray{Vec3(0, 0, -15), normalize(Vec3(0.1, 0.2, 1))};
-    const Moments asked = traced(scene, ray, 100000), chance = traced_by_chance(scene, ray, 300000);
+    const Moments asked = traced(scene, ray, 40000), chance = traced_by_chance(scene, ray, 300000);
     EXPECT_TRUE(statistics::means_agree(asked, chance, {.comparisons = 2})) << "radius " << radius_deg;
     EXPECT_LT(chance.standard_error(), 0.03 * chance.mean());
   }
