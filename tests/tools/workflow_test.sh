@@ -40,6 +40,22 @@ printf '0,0,0,0.5\n1,0,0,0.25\n0,0,2,0.125\n' >points.csv
 must "$ARCUS" author field --file points.csv -o field.vdb
 expect 0 'active_voxels: 3' "$ARCUS" info field.vdb
 
+# The water of a cloud model: NetCDF with uneven levels, and an LWC file.
+cat >les.cdl <<'CDL'
+netcdf les { dimensions: z = 3, y = 2, x = 2;
+variables: float x(x), y(y), z(z), QC(z, y, x); x:units = "m"; y:units = "m"; z:units = "km"; QC:units = "g/kg"; QC:_FillValue = -999.f;
+data: x = 0, 50; y = 0, 50; z = 0.5, 0.52, 0.56; QC = 0, 0, 0, 0.1, 0, 0.2, 0.2, 0.3, 0, 0, 0.1, 0.1; }
+CDL
+ncgen -o les.nc les.cdl
+expect 0 "water from 'QC' times .*Standard Atmosphere" "$ARCUS" author field --file les.nc --number-per-cm3 100 -o les.vdb
+expect 0 'uneven layers became' "$ARCUS" author field --file les.nc --number-per-cm3 100 -o les.vdb
+# 1 g/kg near 540 m is 1.16 g/m3; layers of 20, 30 and 40 m, cells of 50 m: 81 kg.
+kilograms=$("$ARCUS" info les.vdb --png views.png | sed -n 's/^water_kg: //p')
+check "the water of the model is kept: $kilograms kg" awk -v kg="$kilograms" 'BEGIN { w = 1.163 * 2500 * (20 * 0.1 + 30 * 0.7 + 40 * 0.2) / 1000; exit !(kg > 0.98 * w && kg < 1.02 * w) }'
+printf '2 parameter LWC file\n2 2 2\n0.05 0.05\n0.5 0.55 0.6\n288 288 288\n1 1 1 0.2 8\n2 2 2 0.4 12\n' >les.lwc
+expect 0 'effective radius 8 to 12 um' "$ARCUS" author field --file les.lwc -o lwc.vdb
+expect 0 'cloud.size' "$ARCUS" info lwc.vdb
+
 # Phase functions.
 "$ARCUS" phase sphere --x 10 --n 1.33 --k 1e-8 --angles-deg 0,90,180 --json >sphere.json
 for key in qext qsca qback g angles_deg s1_re s1_im s2_re s2_im; do
