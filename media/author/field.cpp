@@ -165,6 +165,7 @@ void set_recipe(const FieldSettings& settings, const std::string& folder, NewSpe
   phase::Recipe recipe =
       settings.phase_file.empty() ? settings.phase : phase::recipe_from_file(path_from(folder, settings.phase_file));
   if (settings.phase_file.empty()) phase::resolve_files(recipe, folder);
+  phase::make_files_absolute(recipe);
   species.recipe = text_of(recipe);
   species.phase_id = phase::recipe_id(recipe);
 }

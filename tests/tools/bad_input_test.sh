@@ -60,6 +60,14 @@ expect 2 "r.toml:1.*Did you mean 'mie'" "$ARCUS" phase compute r.toml
 printf 'type = "hg"\ng = 1.5\n' >r.toml
 expect 2 'r.toml:2.*g: 1.5' "$ARCUS" phase compute r.toml
 expect 2 'none.toml' "$ARCUS" phase eval none.toml
+mkdir tables
+printf 'type = "table"\nfile = "t.txt"\n' >tables/r.toml
+expect 2 'tables/t.txt' "$ARCUS" phase compute tables/r.toml -o t.nc
+printf '0 1\n90 -1\n180 1\n' >tables/t.txt
+expect 2 'tables/t.txt: the value -1' "$ARCUS" phase compute tables/r.toml -o t.nc
+printf 'CDF\001' >tables/t.txt
+expect 2 'tables/t.txt: 4 bytes found' "$ARCUS" phase compute tables/r.toml -o t.nc
+absent t.nc
 expect 2 'size' "$ARCUS" phase sphere --x -1
 expect 2 'angles' "$ARCUS" phase sphere --x 1 --angles-deg 0:x:3
 expect 2 'angles' "$ARCUS" phase sphere --x 1 --angles-deg 0,200

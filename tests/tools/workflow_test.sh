@@ -72,6 +72,17 @@ check 'phase plot makes a PNG' is_png drops.png
 check 'phase plot --polar makes a PNG' is_png polar.png
 expect 0 'recipe' "$ARCUS" info drops.nc
 
+# A table from elsewhere: named relative to its recipe, and rendered from any folder.
+mkdir -p tables/scenes
+printf 'angle 450 650\n0 30 20\n90 1 1\n180 2 1\n' >tables/t.txt
+printf 'type = "table"\nfile = "t.txt"\n' >tables/r.toml
+expect 0 "column '450': its integral over the sphere is" "$ARCUS" phase compute tables/r.toml -o tables/own.nc
+must "$ARCUS" author box --optical-depth 1 --phase tables/r.toml -o tables/box.vdb
+printf '[camera]\nresolution = [8, 8]\nposition_m = [0, -5, 0]\n[[medium]]\nvdb = "../box.vdb"\n' >tables/scenes/s.toml
+check 'a VDB with a table renders from its own folder' bash -c "cd tables/scenes && '$ARCUS' render s.toml --spp 1 --quiet"
+printf 'phase = { type = "table", file = "../own.nc" }\n' >>tables/scenes/s.toml
+check 'a table of phase compute serves a scene' "$ARCUS" render tables/scenes/s.toml --spp 1 --quiet
+
 # Render, with options that change the scene; the EXR knows it.
 must "$ARCUS" author box -o box.vdb --optical-depth 1 --phase drops.toml
 printf '[camera]\nresolution = [48, 32]\nposition_m = [0, -2000, 0]\n[[medium]]\nvdb = "box.vdb"\n' >box.toml
