@@ -136,7 +136,7 @@ must "$ARCUS" render box.toml -o whole.exr --spp 4000 --no-png
 check 'resumed and whole pictures differ' bash -c "'$ARCUS' compare cut.exr whole.exr | grep -qE '^R .* 0 +0 +0 '"
 # Ctrl-C: shells start background jobs with SIGINT ignored, so the program is started with it set anew.
 checks=$((checks + 1))
-timeout --preserve-status --signal INT 4 "$ARCUS" render box.toml -o int.exr --spp 1000000 --no-png --quiet 2>"$work/.stderr"
+timeout --foreground --preserve-status --signal INT 4 "$ARCUS" render box.toml -o int.exr --spp 1000000 --no-png --quiet 2>"$work/.stderr"
 found=$?
 [ $found -eq 130 ] || complain "Ctrl-C ended a render with $found, not 130"
 expect 0 'samples_per_pixel' "$ARCUS" info int.exr
