@@ -7,6 +7,7 @@
 
 #include "phase/base/curve.h"
 #include "phase/base/error.h"
+#include "phase/base/wavelengths.h"
 #include "phase/settings/number_text.h"
 
 namespace arcus::phase {
@@ -50,10 +51,10 @@ class Reader {
 
   TableFile read() {
     ScatteringTable& t = result_.table;
-    const auto sizes = ascending(reff_um_), wavelengths = ascending(wavelength_um_);
+    const auto sizes = ascending(reff_um_), wavelengths = visible(ascending(wavelength_um_));
     for (const std::size_t r : sizes) t.size_um.push_back(reff_um_[r]);
     for (const std::size_t w : wavelengths) t.wavelength_nm.push_back(nm_a_um * wavelength_um_[w]);
-    collect_angles();
+    collect_angles(wavelengths);
     const std::size_t count = t.size_um.size() * t.wavelength_nm.size() * t.scattering_angle_deg.size();
     if (count > most_values)
       throw bad_input(file_.path(), number_text(static_cast<double>(count)) + " values once all angles are put together", "at most 2e8 expected",
@@ -111,9 +112,17 @@ class Reader {
     return result;
   }
 
-  void collect_angles() {
+  /// Of the wavelengths in order those that light is rendered at, with one beyond each end.
+  std::vector<std::size_t> visible(const std::vector<std::size_t>& order) const {
+    std::size_t first = 0, last = order.size() - 1;
+    while (first < last && nm_a_um * wavelength_um_[order[first + 1]] <= shortest_wavelength_nm) ++first;
+    while (last > first && nm_a_um * wavelength_um_[order[last - 1]] >= longest_wavelength_nm) --last;
+    return {order.begin() + static_cast<std::ptrdiff_t>(first), order.begin() + static_cast<std::ptrdiff_t>(last) + 1};
+  }
+
+  void collect_angles(const std::vector<std::size_t>& wavelengths) {
     std::vector<double> all;
-    for (std::size_t w = 0; w < wavelength_um_.size(); ++w)
+    for (const std::size_t w : wavelengths)
       for (std::size_t r = 0; r < reff_um_.size(); ++r) {
         const Element p11 = element(w, r, 0);
         all.insert(all.end(), p11.angle_deg.begin(), p11.angle_deg.end());

@@ -203,6 +203,21 @@ TEST_F(TableFileTest, LayoutOfLibradtranGivesTheSameSpecies) {
   }
 }
 
+TEST_F(TableFileTest, WavelengthsFarFromLightAreLeftOut) {
+  ScatteringTable t;
+  t.size_um = {5};
+  t.wavelength_nm = {250, 300, 350, 500, 700, 780, 900, 1600};
+  t.scattering_angle_deg = {0, 1, 2, 90, 180};
+  t.p11.assign(8 * 5, static_cast<float>(0.25 / pi));
+  t.p12 = t.p33 = t.p34 = std::vector<float>(8 * 5, 0);
+  t.extinction_cross_section_m2 = t.scattering_cross_section_m2 = std::vector<double>(8, 1e-10);
+  write_libradtran(path("mie.cdf"), t);
+  const std::vector<double> found = read_table_file(path("mie.cdf")).table.wavelength_nm;
+  ASSERT_EQ(found.size(), 4u);
+  EXPECT_NEAR(found.front(), 350, 1e-9);
+  EXPECT_NEAR(found.back(), 780, 1e-9);
+}
+
 TEST_F(TableFileTest, IntensityAloneIsEnough) {
   write_libradtran(path("mie.cdf"), droplets(), {.elements = 1});
   const TableFile file = read_table_file(path("mie.cdf"));
