@@ -29,7 +29,8 @@ Role role_of_name(const std::string& original) {
   const std::string name = lower(original);
   if (is_one_of(name, {"x", "xt", "xm", "xh", "x_c", "nx", "ni", "west_east", "projection_x_coordinate", "xc"})) return Role::x;
   if (is_one_of(name, {"y", "yt", "ym", "yh", "y_c", "ny", "nj", "south_north", "projection_y_coordinate", "yc"})) return Role::y;
-  if (is_one_of(name, {"z", "zt", "zm", "zh", "z_c", "nz", "nk", "zu_3d", "zw_3d", "height", "altitude", "alt", "lev", "level", "levels", "bottom_top", "zc", "height_above_ground"}))
+  if (is_one_of(name, {"z", "zt", "zm", "zh", "z_c", "nz", "nk", "zu_3d", "zw_3d", "height", "altitude", "alt", "lev",
+                       "level", "levels", "bottom_top", "zc", "height_above_ground"}))
     return Role::z;
   if (is_one_of(name, {"time", "t", "times"})) return Role::time;
   if (is_one_of(name, {"lat", "latitude", "lon", "longitude", "rlat", "rlon"})) return Role::angle;

@@ -67,8 +67,8 @@ class Reader {
       water_pointer_ = found;
       return *found;
     }
-    throw bad_input(file_.path(), "no variable with a usual name of liquid water (" + list_of(water_names) + ")", "one expected; the file has " + file_.all_variables(),
-                    "Say which with water = \"...\"");
+    throw bad_input(file_.path(), "no variable with a usual name of liquid water (" + list_of(water_names) + ")",
+                    "one expected; the file has " + file_.all_variables(), "Say which with water = \"...\"");
   }
 
   void lay_out(const std::optional<GivenLattice>& given) {
@@ -113,9 +113,11 @@ class Reader {
     if (!axes_.time) return;
     const auto count = static_cast<long long>(file_.dimensions()[*axes_.time].length);
     if (s_.time_index < 0 && count > 1)
-      throw bad_input(file_.where(water_), std::to_string(count) + " times", "one must be chosen", "Say which with time_index, from 0 to " + std::to_string(count - 1));
+      throw bad_input(file_.where(water_), std::to_string(count) + " times", "one must be chosen",
+                      "Say which with time_index, from 0 to " + std::to_string(count - 1));
     if (s_.time_index >= count)
-      throw bad_input("time_index", std::to_string(s_.time_index), "0 to " + std::to_string(count - 1) + " expected: " + file_.path() + " has " + std::to_string(count) + " times");
+      throw bad_input("time_index", std::to_string(s_.time_index),
+                      "0 to " + std::to_string(count - 1) + " expected: " + file_.path() + " has " + std::to_string(count) + " times");
     time_ = static_cast<std::size_t>(std::max(s_.time_index, 0LL));
   }
 
@@ -245,7 +247,8 @@ void list_keys(Keys& keys, ModelSettings& model) {
   keys.text("radius_unit", model.radius_unit, "um or m, where the attribute units does not say so");
   keys.text("number", model.number, "variable of the number of droplets; empty: by its usual names, if there is one and no radius");
   keys.text("number_unit", model.number_unit, "1/cm3, 1/m3 or 1/kg, where the attribute units does not say so");
-  keys.text("density", model.density, "of the air, for what is per kg: a variable, or standard: the International Standard Atmosphere; empty: by its usual names, else from pressure and temperature, else standard");
+  keys.text("density", model.density,
+            "of the air, for what is per kg: a variable, or standard: the International Standard Atmosphere; empty: by its usual names, else from pressure and temperature, else standard");
   keys.text("pressure", model.pressure, "variable of the air's pressure; empty: by its usual names");
   keys.text("temperature", model.temperature, "variable of the air's temperature in K; empty: by its usual names");
   keys.text("x", model.axes.x, "dimension or coordinate towards the east; empty: by attributes and usual names, as for y, z and time");

@@ -185,9 +185,11 @@ WaterSpecies species_of_water(const WaterField& field, const DropletSettings& se
                            words(layers.height_m) + " m; every column keeps its water and optical depth");
   if (cells.negative > 0) result.notes.push_back(std::to_string(cells.negative) + " cells with water below 0 by rounding count as 0");
   if (cells.too_small > 0)
-    result.notes.push_back(percent(cells.too_small, cells.cloudy) + " have an effective radius below smallest_um and get " + number_text(settings.smallest_um) + " um");
+    result.notes.push_back(percent(cells.too_small, cells.cloudy) + " have an effective radius below smallest_um and get " +
+                           number_text(settings.smallest_um) + " um");
   if (cells.too_large > 0)
-    result.notes.push_back(percent(cells.too_large, cells.cloudy) + " have an effective radius above largest_um and get " + number_text(settings.largest_um) + " um");
+    result.notes.push_back(percent(cells.too_large, cells.cloudy) + " have an effective radius above largest_um and get " +
+                           number_text(settings.largest_um) + " um");
   return result;
 }
 

@@ -92,7 +92,8 @@ class MediaReader {
     if (fogs.empty()) {
       const bool has_level_set = std::any_of(headers_.begin(), headers_.end(), [](const auto& header) { return header && header->is_level_set(); });
       throw bad_input(reader_.path(), all_grids(), "a float or double fog volume expected",
-                      has_level_set ? "Level sets are distances to a surface: convert them first (OpenVDB's sdfToFogVolume)" : "Convert the grid that holds the density first");
+                      has_level_set ? "Level sets are distances to a surface: convert them first (OpenVDB's sdfToFogVolume)"
+                                    : "Convert the grid that holds the density first");
     }
     throw bad_input(reader_.path(), list_of(usable()), "one of them must be chosen", "Say which with grid = \"...\"");
   }

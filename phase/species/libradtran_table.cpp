@@ -100,13 +100,15 @@ class Reader {
       const std::size_t from = is_reversed ? count - 1 - i : i;
       const double value = phase_[place * most_angles_ + from];
       if (!std::isfinite(value) || !std::isfinite(theta[from]) || (e == 0 && value < 0))
-        throw bad_input(where + ": phase[" + std::to_string(e) + "] at " + number_text(theta[from]) + " degrees", std::isnan(value) ? "NaN" : number_text(value),
+        throw bad_input(where + ": phase[" + std::to_string(e) + "] at " + number_text(theta[from]) + " degrees",
+                        std::isnan(value) ? "NaN" : number_text(value),
                         e == 0 ? "a finite value that is not negative expected" : "a finite value expected");
       result.angle_deg.push_back(theta[from]);
       result.value.push_back(value);
     }
     if (std::fabs(result.angle_deg.front()) > 0.01 || std::fabs(result.angle_deg.back() - 180) > 0.01)
-      throw bad_input(where + ": theta", number_text(result.angle_deg.front()) + " to " + number_text(result.angle_deg.back()) + " degrees", "must reach from 0 to 180");
+      throw bad_input(where + ": theta", number_text(result.angle_deg.front()) + " to " + number_text(result.angle_deg.back()) + " degrees",
+                      "must reach from 0 to 180");
     result.angle_deg.front() = 0;
     result.angle_deg.back() = 180;
     return result;
@@ -153,14 +155,16 @@ class Reader {
     const double density_g_per_m3 = 1e6, radius_m = 1e-6 * reff_um_[r];
     const double sphere_g = 4.0 / 3 * pi * radius_m * radius_m * radius_m * density_g_per_m3;
     if (!(extinction_[at] > 0) || !(albedo_[at] > 0 && albedo_[at] <= 1.0001))
-      throw bad_input(where, "ext " + number_text(extinction_[at]) + " and ssa " + number_text(albedo_[at]), "an extinction above 0 and an albedo from 0 to 1 expected");
+      throw bad_input(where, "ext " + number_text(extinction_[at]) + " and ssa " + number_text(albedo_[at]),
+                      "an extinction above 0 and an albedo from 0 to 1 expected");
     t.extinction_cross_section_m2.push_back(1e-3 * extinction_[at] * sphere_g);
     t.scattering_cross_section_m2.push_back(std::min(albedo_[at], 1.0) * t.extinction_cross_section_m2.back());
     t.forward_fraction.push_back(0);
     t.asymmetry.push_back(0);
     const double error = std::fabs(normalise_row(t, t.asymmetry.size() - 1, where) - 1);
     if (error > 0.2)
-      throw bad_input(where, "a mean over the sphere that is off by " + number_text(std::round(1000 * error) / 10) + " %", "1 expected, as libRadtran's mie normalises it",
+      throw bad_input(where, "a mean over the sphere that is off by " + number_text(std::round(1000 * error) / 10) + " %",
+                      "1 expected, as libRadtran's mie normalises it",
                       "Too few angles may have been written");
     t.normalisation_error = std::max(t.normalisation_error, error);
     if (error > worst_) {

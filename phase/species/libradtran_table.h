@@ -13,8 +13,8 @@ namespace arcus::phase {
 bool is_libradtran_table(const NetcdfFile& file);
 
 /// Sizes are reff, cross-sections those of a sphere of that radius with the file's ext, so that extinction goes with the wavelength as in
-/// the file. Of the wavelengths those are kept that light is rendered at, with the next beyond; no forward lobe is removed. The nodes of all angles of the file together are the table's; between its own nodes a row is linear
-/// in cos θ, as libRadtran has it. Rows whose integral is off by more than 1 % are normalised with a warning, by more than 20 % refused,
+/// the file. Of the wavelengths those are kept that light is rendered at, with the next beyond; no forward lobe is removed. The
+/// angles of all rows together are the table's nodes; between its own nodes a row is linear in cos θ, as libRadtran has it. Rows whose integral is off by more than 1 % are normalised with a warning, by more than 20 % refused,
 /// as are tables by humidity instead of size. Throws bad_input.
 TableFile read_libradtran_table(const std::string& path);
 

@@ -71,7 +71,8 @@ void list_keys(Keys& keys, Recipe& recipe) {
   if (keys.only_if(recipe.type == "rayleigh", "type = rayleigh"))
     keys.number("depolarisation", recipe.depolarisation, between(0, 6.0 / 7), "of natural light scattered at 90 degrees");
   if (keys.only_if(recipe.type == "table", "type = table")) {
-    keys.text("file", recipe.file, "text: columns of angle in degrees from 0 to 180 and value, more values for more wavelengths; or NetCDF of phase compute or of libRadtran's mie; normalised");
+    keys.text("file", recipe.file,
+              "text: columns of angle in degrees from 0 to 180 and value, more values for more wavelengths; or NetCDF of phase compute or of libRadtran's mie; normalised");
     if (recipe.file.empty() && !keys.documents()) keys.refuse("file", "nothing", "the name of a file expected");
   }
   if (keys.only_if(recipe.is_sphere(), "type = mie or rain")) list_sphere_keys(keys, recipe);

@@ -48,7 +48,8 @@ std::vector<double> wavelengths_of(const Columns& columns, const std::string& pa
     const std::string_view rest(end, static_cast<std::size_t>(name.data() + name.size() - end));
     if (fault != std::errc() || !(value >= 100 && value <= 1e5) || (!rest.empty() && rest != "nm" && rest != "_nm"))
       throw bad_input(path, "the column name '" + name + "'", how);
-    if (!nm.empty() && !(value > nm.back())) throw bad_input(path, number_text(value) + " nm after " + number_text(nm.back()) + " nm", "ascending wavelengths expected");
+    if (!nm.empty() && !(value > nm.back()))
+      throw bad_input(path, number_text(value) + " nm after " + number_text(nm.back()) + " nm", "ascending wavelengths expected");
     nm.push_back(value);
   }
   return nm;
@@ -140,7 +141,8 @@ TableFile read_table_file(const std::string& path) {
     is_own = file.number(nullptr, "arcus_format").has_value();
     is_libradtran = is_libradtran_table(file);
     if (!is_own && !is_libradtran)
-      throw bad_input(path, "the variables " + file.all_variables(), "a phase table of arcus phase compute, or of libRadtran's mie (wavelen, reff, theta, phase ...), expected");
+      throw bad_input(path, "the variables " + file.all_variables(),
+                      "a phase table of arcus phase compute, or of libRadtran's mie (wavelen, reff, theta, phase ...), expected");
   }
   if (is_own) return {read_species_file(path).table, {}};
   return read_libradtran_table(path);
