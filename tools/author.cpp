@@ -65,14 +65,21 @@ void author_rain(const AuthorCommand& command, const media::RainSettings& settin
                rain.largest_radius_um, bricks);
 }
 
+/// What droplets are like, in words.
+std::string droplet_words(const media::FilledRange& range) {
+  char text[200];
+  std::snprintf(text, sizeof text, "extinction up to %.3g /m (diffraction included), effective radius %.3g to %.3g um", range.largest_extinction_per_m,
+                range.smallest_size_um, range.largest_size_um);
+  return text;
+}
+
 /// Writes a species of droplets and says what it holds.
 void save_droplets(const AuthorCommand& command, media::NewSpecies species) {
   const media::FilledRange range = media::range_of(species);
   const std::size_t bricks = species.extinction.size();
   media::save_grids(command.output, media::grids_of(std::move(species)));
   if (command.quiet) return;
-  std::fprintf(stderr, "%s: extinction up to %.3g /m (diffraction included), effective radius %.3g to %.3g um, %zu bricks of 8^3 voxels\n",
-               command.output.c_str(), range.largest_extinction_per_m, range.smallest_size_um, range.largest_size_um, bricks);
+  std::cerr << command.output << ": " << droplet_words(range) << ", " << bricks << " bricks of 8^3 voxels\n";
 }
 
 void author_cloud(const AuthorCommand& command, const media::CloudSettings& settings) {
@@ -90,7 +97,11 @@ void author_box(const AuthorCommand& command, const media::BoxSettings& settings
 
 void author_field(const AuthorCommand& command, const media::FieldSettings& settings) {
   const std::string folder = std::filesystem::path(command.settings_file).parent_path().string();
-  media::save_grids(command.output, media::author_field(settings, folder));
+  const media::AuthoredField field = media::author_field(settings, folder);
+  media::save_grids(command.output, field.grids);
+  if (command.quiet || !settings.is_water()) return;
+  for (const std::string& note : field.notes) std::cerr << settings.file << ": " << note << '\n';
+  std::cerr << command.output << ": " << droplet_words(field.range) << ", " << field.grids[0].bricks.size() << " bricks of 8^3 voxels\n";
 }
 
 }  // namespace
@@ -102,7 +113,7 @@ void add_author(CLI::App& program) {
   add_kind<media::CloudSettings>(*author, "cloud", "Water clouds: cumulus, stratocumulus, stratus", author_cloud);
   add_kind<media::FogSettings>(*author, "fog", "Radiation or advection fog", author_fog);
   add_kind<media::BoxSettings>(*author, "box", "A homogeneous block", author_box);
-  add_kind<media::FieldSettings>(*author, "field", "An array of numbers from elsewhere, raw or as text", author_field);
+  add_kind<media::FieldSettings>(*author, "field", "Numbers from elsewhere: raw, as text, or the water of a cloud model in NetCDF or LWC files", author_field);
 }
 
 }  // namespace arcus::tools

@@ -55,6 +55,7 @@ NewSpecies author_box(const BoxSettings& settings, const std::string& folder) {
   phase::Recipe recipe =
       settings.phase_file.empty() ? settings.phase : phase::recipe_from_file(path_from(folder, settings.phase_file));
   if (settings.phase_file.empty()) phase::resolve_files(recipe, folder);
+  phase::make_files_absolute(recipe);
   NewSpecies species;
   species.name = settings.name;
   species.recipe = text_of(recipe);

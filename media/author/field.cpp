@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <bit>
+#include <cctype>
 #include <cmath>
 #include <cstring>
-#include <map>
+#include <optional>
 
+#include "media/author/lwc_file.h"
 #include "phase/base/curve.h"
 #include "phase/base/error.h"
 #include "phase/settings/number_text.h"
@@ -59,7 +61,7 @@ std::vector<float> numbers_in(const std::string& bytes, const Coord& n, bool x_f
 
 std::vector<float> read_raw(const std::string& path, const FieldSettings& settings, const Coord& n) {
   const std::string bytes = read_text_file(path);
-  const std::size_t width = settings.format == "float64" ? 8 : 4;
+  const std::size_t width = settings.real_format() == "float64" ? 8 : 4;
   const std::size_t expected = width * static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y) * static_cast<std::size_t>(n.z);
   if (bytes.size() != expected)
     throw bad_input(path, std::to_string(bytes.size()) + " bytes",
@@ -131,12 +133,11 @@ Field read_positions(const std::string& path, const Columns& columns) {
 
 Field read_field(const FieldSettings& settings, const std::string& folder) {
   const std::string path = path_from(folder, settings.file);
-  const std::string ending = path.substr(std::min(path.size(), path.find_last_of('.')));
   Field field;
   field.first_m = settings.first_m;
   const auto& steps = settings.voxel_m;
   field.step_m = steps.size() == 1 ? Vec3(steps[0]) : Vec3(steps[0], steps[1], steps[2]);
-  if (ending != ".csv" && ending != ".txt" && ending != ".dat") {
+  if (settings.real_format() != "columns") {
     field.count = dimensions_of(settings);
     field.values = read_raw(path, settings, field.count);
     if (!settings.size_file.empty()) field.sizes = read_raw(path_from(folder, settings.size_file), settings, field.count);
@@ -158,30 +159,88 @@ Field read_field(const FieldSettings& settings, const std::string& folder) {
   return field;
 }
 
+/// A recipe in place of the one that the species has, where there is one.
+void set_recipe(const FieldSettings& settings, const std::string& folder, NewSpecies& species) {
+  if (!settings.has_phase) return;
+  phase::Recipe recipe =
+      settings.phase_file.empty() ? settings.phase : phase::recipe_from_file(path_from(folder, settings.phase_file));
+  if (settings.phase_file.empty()) phase::resolve_files(recipe, folder);
+  phase::make_files_absolute(recipe);
+  species.recipe = text_of(recipe);
+  species.phase_id = phase::recipe_id(recipe);
+}
+
+AuthoredField author_water(const FieldSettings& settings, const std::string& folder) {
+  const std::string path = path_from(folder, settings.file);
+  const bool sizes_are_given = settings.has_size || settings.droplets.drops_per_cm3 > 0;
+  ModelOutput output;
+  if (settings.real_format() == "lwc") {
+    output.field = read_lwc_file(path);
+    if (sizes_are_given) output.field.radius_um.clear();
+  } else {
+    std::optional<GivenLattice> given;
+    if (settings.has_voxel) {
+      const auto& step = settings.voxel_m;
+      given = {{settings.first_m.x, settings.first_m.y, settings.first_m.z}, {step[0], step[step.size() / 2], step.back()}};
+    }
+    output = read_model_output(path, settings.model, given, sizes_are_given);
+  }
+  for (float& water : output.field.water_g_per_m3) water *= static_cast<float>(settings.scale);
+  DropletSettings droplets = settings.droplets;
+  droplets.size_um = settings.size_um;
+  if (output.field.radius_um.empty() && output.field.drops_per_cm3.empty())
+    output.notes.push_back(droplets.drops_per_cm3 > 0 ? number_text(droplets.drops_per_cm3) + " droplets in a cm3 everywhere"
+                                                      : "effective radius " + number_text(droplets.size_um) + " um everywhere");
+  WaterSpecies water = species_of_water(output.field, droplets);
+  water.species.name = settings.name == FieldSettings{}.name ? "cloud" : settings.name;
+  set_recipe(settings, folder, water.species);
+  output.notes.insert(output.notes.end(), water.notes.begin(), water.notes.end());
+  const FilledRange range = range_of(water.species);
+  return {grids_of(std::move(water.species)), output.notes, range};
+}
+
 }  // namespace
 
+std::string FieldSettings::real_format() const {
+  if (format != "auto") return format;
+  std::string ending = file.substr(std::min(file.size(), file.find_last_of('.')));
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (ending == ".nc" || ending == ".nc4" || ending == ".cdf" || ending == ".netcdf") return "netcdf";
+  if (ending == ".lwc") return "lwc";
+  return ending == ".csv" || ending == ".txt" || ending == ".dat" ? "columns" : "float32";
+}
+
 void list_keys(Keys& keys, FieldSettings& field) {
-  keys.text("file", field.file, "raw numbers, or columns of text where it ends in .csv, .txt or .dat");
+  keys.text("file", field.file, "raw numbers, columns of text, NetCDF of a cloud model, or an LWC file of SHDOM, I3RC or AT3D");
   if (field.file.empty() && !keys.documents()) keys.refuse("file", "nothing", "the name of a file expected");
-  keys.text("size_file", field.size_file, "raw numbers only: sizes in um, in the same order");
-  keys.numbers("dimensions", field.dimensions, between(1, 1e6), 0, 3,
-               "number of voxels along x, y and z; not needed for columns with positions");
-  keys.choice("order", field.order, {"z_fastest", "x_fastest"}, "which index runs first through the file");
-  keys.choice("format", field.format, {"float32", "float64"}, "of raw numbers, little-endian");
-  keys.vector3("first_m", field.first_m, "position of the first voxel's value; not needed for columns with positions");
+  keys.choice("format", field.format, {"auto", "float32", "float64", "columns", "netcdf", "lwc"},
+              "float32, float64: raw, little-endian; auto: by the ending .csv, .txt, .dat (columns), .nc, .nc4, .cdf, .netcdf, .lwc, else float32");
+  const bool is_water = field.is_water();
+  if (keys.only_if(!is_water, "raw or columns")) {
+    keys.text("size_file", field.size_file, "raw numbers only: sizes in um, in the same order");
+    keys.numbers("dimensions", field.dimensions, between(1, 1e6), 0, 3,
+                 "number of voxels along x, y and z; not needed for columns with positions");
+    keys.choice("order", field.order, {"z_fastest", "x_fastest"}, "which index runs first through the file");
+  }
+  keys.vector3("first_m", field.first_m, "position of the first voxel's value; not needed where the file has positions");
+  field.has_voxel = field.has_voxel || keys.is_given("voxel_m");
   keys.numbers("voxel_m", field.voxel_m, above(0), 1, 3, "distance between neighbours along x, y and z; one number: along all");
   if (field.voxel_m.size() == 2) keys.refuse("voxel_m", "2 numbers", "must be one or three");
   keys.number("scale", field.scale, at_least(0), "multiplies the values");
-  keys.text("name", field.name, "of the density grid, or of the species where a recipe is given");
+  keys.text("name", field.name, "of the density grid, or of the species where a recipe is given; density for liquid water: cloud");
   field.has_phase = field.has_phase || keys.is_given("phase");
-  if (keys.only_if(field.has_phase, "makes a species of it, with values in 1/m")) {
-    keys.number("size_um", field.size_um, above(0), "size of all particles where no sizes are given");
+  field.has_size = field.has_size || keys.is_given("size_um");
+  if (keys.only_if(field.has_phase || is_water, "species: with a recipe, values are in 1/m; or liquid water"))
+    keys.number("size_um", field.size_um, above(0), "size of all particles where no sizes are given; liquid water: effective radius in place of the file's");
+  if (keys.only_if(is_water, "liquid water: netcdf or lwc")) list_keys(keys, field.droplets);
+  if (keys.only_if(field.real_format() == "netcdf", "netcdf")) list_keys(keys, field.model);
+  if (keys.only_if(field.has_phase, "makes a species of it"))
     keys.word_or_table("phase", field.phase_file, field.phase,
-                       "recipe of the phase functions: a table of recipe keys or the name of a recipe file");
-  }
+                       "recipe of the phase functions: a table of recipe keys or the name of a recipe file; liquid water has its own");
 }
 
-std::vector<NewGrid> author_field(const FieldSettings& settings, const std::string& folder) {
+AuthoredField author_field(const FieldSettings& settings, const std::string& folder) {
+  if (settings.is_water()) return author_water(settings, folder);
   const Field field = read_field(settings, folder);
   const Coord& n = field.count;
   NewSpecies species;
@@ -225,16 +284,12 @@ std::vector<NewGrid> author_field(const FieldSettings& settings, const std::stri
     density.name = settings.name;
     density.world_from_index = species.world_from_index;
     density.bricks = std::move(species.extinction);
-    return {density};
+    return {.grids = {density}, .notes = {}, .range = {}};
   }
-  phase::Recipe recipe =
-      settings.phase_file.empty() ? settings.phase : phase::recipe_from_file(path_from(folder, settings.phase_file));
-  if (settings.phase_file.empty()) phase::resolve_files(recipe, folder);
   species.name = settings.name;
-  species.recipe = text_of(recipe);
-  species.phase_id = phase::recipe_id(recipe);
+  set_recipe(settings, folder, species);
   species.size_um = static_cast<float>(settings.size_um);
-  return grids_of(std::move(species));
+  return {.grids = grids_of(std::move(species)), .notes = {}, .range = {}};
 }
 
 }  // namespace arcus::media

@@ -61,7 +61,7 @@ class MediaReader {
   }
   string hint() const {
     const auto labels = usable();
-    if (labels.empty()) return "The file has no float fog volume";
+    if (labels.empty()) return "The file has no float or double fog volume";
     return (labels.size() == 1 ? "This grid would do: " : "These grids would do: ") + list_of(labels);
   }
   /// "'v' (vec3s, staggered), ..."
@@ -89,8 +89,12 @@ class MediaReader {
       note(fogs[0], "used, because it is the only float fog volume");
       return fogs[0];
     }
-    if (fogs.empty())
-      throw bad_input(reader_.path(), all_grids(), "a float fog volume expected", hint());
+    if (fogs.empty()) {
+      const bool has_level_set = std::any_of(headers_.begin(), headers_.end(), [](const auto& header) { return header && header->is_level_set(); });
+      throw bad_input(reader_.path(), all_grids(), "a float or double fog volume expected",
+                      has_level_set ? "Level sets are distances to a surface: convert them first (OpenVDB's sdfToFogVolume)"
+                                    : "Convert the grid that holds the density first");
+    }
     throw bad_input(reader_.path(), list_of(usable()), "one of them must be chosen", "Say which with grid = \"...\"");
   }
 
@@ -98,7 +102,7 @@ class MediaReader {
     std::vector<std::size_t> matches;
     for (std::size_t i = 0; i < headers_.size(); ++i) {
       const VdbEntry& e = entry(i);
-      if (e.name + "[" + std::to_string(e.index) + "]" == choice) return i;
+      if (e.name + "[" + std::to_string(e.index) + "]" == choice || (e.label() == choice && e.label() != e.name)) return i;
       if (e.name == choice || (is_species(i) && e.name == choice + string(extinction_suffix))) matches.push_back(i);
     }
     if (matches.size() == 1) return matches[0];

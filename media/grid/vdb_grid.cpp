@@ -57,8 +57,26 @@ std::vector<std::pair<std::string, std::string>> VdbGrid::metadata() const {
 
 bool VdbGrid::is_affine() const { return base(grid_).transform().isLinear(); }
 
+namespace {
+
+/// The matrix of a map that is affine. OpenVDB's own conversion refuses voxels below about 1e-5.
+openvdb::Mat4R matrix_of(const openvdb::math::MapBase& map) {
+  openvdb::Mat4R m = openvdb::Mat4R::identity();
+  const openvdb::Vec3d origin = map.applyMap({0, 0, 0});
+  for (int i = 0; i < 3; ++i) {
+    openvdb::Vec3d axis(0, 0, 0);
+    axis[i] = 1;
+    const openvdb::Vec3d image = map.applyJacobian(axis);
+    for (int j = 0; j < 3; ++j) m(i, j) = image[j];
+    m(3, i) = origin[i];
+  }
+  return m;
+}
+
+}  // namespace
+
 Affine VdbGrid::affine() const {
-  const openvdb::Mat4R m = base(grid_).transform().baseMap()->getAffineMap()->getMat4();
+  const openvdb::Mat4R m = matrix_of(*base(grid_).transform().baseMap());
   const auto row = [&](int i) { return Vec3(m(i, 0), m(i, 1), m(i, 2)); };  // OpenVDB multiplies vectors from the left
   return {row(0), row(1), row(2), row(3)};
 }

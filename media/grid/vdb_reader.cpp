@@ -30,6 +30,13 @@ std::string plain_type(const std::string& type) {
 
 }  // namespace
 
+std::string VdbEntry::label() const {
+  std::string text = is_unique && !name.empty() ? name : name + "[" + std::to_string(index) + "]";
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
+  return text;
+}
+
 // openvdb::io::File checks its stream here and there only, so that a truncated file can leave sizes unread and crash it.
 // This reads through the same Archive, but from a stream that throws at the first byte that is not there.
 class VdbReader::Implementation : public openvdb::io::Archive {

@@ -20,8 +20,8 @@ struct VdbEntry {
   std::string type;         ///< "float", "double", "vec3s", "bool", "points", ...; OpenVDB's full name for unusual trees
   bool saved_as_half = false;
 
-  /// What picks it: the name, or name[index].
-  std::string label() const { return is_unique ? name : name + "[" + std::to_string(index) + "]"; }
+  /// What picks it, fit for a terminal: the name, or name[index] where it is empty or not unique; control characters become '?'.
+  std::string label() const;
 };
 
 class VdbReader {

@@ -16,6 +16,7 @@ using Cell = MajorantGrid::Cell;
 constexpr std::int64_t most_blocks = std::int64_t{1} << 22;  // 64 MiB of blocks
 constexpr std::size_t most_cells = std::size_t{1} << 24;     // 128 MiB of cells
 constexpr int block_voxels = 64;
+constexpr float least_majorant_per_m = 1e-30f;  // less is nothing over any distance, and its inverse no float
 
 /// Where the voxels lie that interpolation, linear or nearest, can read in a box: reading at p takes voxels ⌊p⌋ and ⌊p⌋ + 1, or
 /// ⌊p + ½⌋. A face within rounding of a plane of voxels counts as lying in it, else every cell would reach one plane too far.
@@ -91,6 +92,7 @@ class BlockPyramid {
       bounds.majorant_per_m += own.majorant_per_m;
       bounds.minorant_per_m += own.minorant_per_m;
     }
+    if (bounds.majorant_per_m < least_majorant_per_m) bounds = {0, 0};
     Cell& cell = cells_[static_cast<std::size_t>(level)][static_cast<std::size_t>((x * n + y) * n + z)];
     if (is_finest || bounds.majorant_per_m - bounds.minorant_per_m <= enough_per_m_ * n) {
       bounds.majorant_per_m *= 1 + 1e-6f;  // outlives the rounding of sums and products above and at lookups

@@ -41,9 +41,9 @@ const std::vector<double>& Columns::named(std::string_view name) const {
   return columns[static_cast<std::size_t>(found - names.begin())];
 }
 
-Columns read_columns(std::string_view text, std::string_view where) {
+Columns read_columns(std::string_view text, std::string_view where, int first_line) {
   Columns result;
-  int line_number = 0;
+  int line_number = first_line - 1;
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     std::string_view line = text.substr(0, end);

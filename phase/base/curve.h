@@ -15,9 +15,10 @@ struct Columns {
   const std::vector<double>& named(std::string_view name) const;
 };
 
-/// Reads columns of numbers. `where` names the text in messages. Throws bad_input with the line where a row has
-/// another number of columns than the first or a word is not a finite number, or where there are no rows.
-Columns read_columns(std::string_view text, std::string_view where);
+/// Reads columns of numbers. `where` names the text in messages, `first_line` is its first line's number in them. Throws
+/// bad_input with the line where a row has another number of columns than the first or a word is not a finite number, or where
+/// there are no rows.
+Columns read_columns(std::string_view text, std::string_view where, int first_line = 1);
 
 /// The same from a file; throws bad_input where it cannot be read.
 Columns read_columns_file(const std::string& path);

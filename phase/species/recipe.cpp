@@ -71,7 +71,8 @@ void list_keys(Keys& keys, Recipe& recipe) {
   if (keys.only_if(recipe.type == "rayleigh", "type = rayleigh"))
     keys.number("depolarisation", recipe.depolarisation, between(0, 6.0 / 7), "of natural light scattered at 90 degrees");
   if (keys.only_if(recipe.type == "table", "type = table")) {
-    keys.text("file", recipe.file, "columns: angle in degrees from 0 to 180, and value; linear between, renormalised");
+    keys.text("file", recipe.file,
+              "text: columns of angle in degrees from 0 to 180 and value, more values for more wavelengths; or NetCDF of phase compute or of libRadtran's mie; normalised");
     if (recipe.file.empty() && !keys.documents()) keys.refuse("file", "nothing", "the name of a file expected");
   }
   if (keys.only_if(recipe.is_sphere(), "type = mie or rain")) list_sphere_keys(keys, recipe);
@@ -99,6 +100,8 @@ void resolve_files(Recipe& recipe, const std::string& folder) {
   const bool is_file = !recipe.material.empty() && recipe.material != "water" && recipe.material != "ice";
   if (is_file) recipe.material = path_from(folder, recipe.material);
 }
+
+void make_files_absolute(Recipe& recipe) { resolve_files(recipe, std::filesystem::current_path().string()); }
 
 RefractiveIndex refractive_index_of(const Recipe& recipe) {
   return recipe.material.empty() ? RefractiveIndex::constant(recipe.index) : RefractiveIndex::named(recipe.material);

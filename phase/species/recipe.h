@@ -18,7 +18,7 @@ struct Recipe {
 
   double g = 0.85;                 ///< hg: mean cosine
   double depolarisation = 0.0279;  ///< rayleigh: of natural light scattered at 90°
-  std::string file;                ///< table: angle in degrees and value
+  std::string file;                ///< table: see read_table_file
 
   // mie and rain
   std::string material = "water";  ///< water | ice | a file; empty: `index` holds
@@ -46,6 +46,9 @@ Recipe recipe_from_file(const std::string& path);
 
 /// Makes the file names in a recipe relative to `folder`, the place of the file that held it.
 void resolve_files(Recipe& recipe, const std::string& folder);
+
+/// File names that are found from any folder: for a recipe that goes into a file of its own.
+void make_files_absolute(Recipe& recipe);
 
 /// What `material` or `index` say. Throws bad_input where a file cannot be read.
 RefractiveIndex refractive_index_of(const Recipe& recipe);

@@ -12,6 +12,7 @@
 #include "phase/base/content_hash.h"
 #include "phase/settings/toml_text.h"
 #include "phase/base/error.h"
+#include "phase/base/netcdf_file.h"
 #include "phase/base/version.h"
 #include "phase/base/whole_file.h"
 
@@ -26,12 +27,6 @@ const char* const references =
     "and W. McK. Palmer, J. Meteor. 5, 165 (1948). Water: M. Daimon and A. Masumura, Appl. Opt. 46, 3811 (2007); D. J. "
     "Segelstein, thesis, Univ. of Missouri-Kansas City (1981). Ice: S. G. Warren and R. E. Brandt, J. Geophys. Res. "
     "113, D14220 (2008). Air: B. Edlen, Metrologia 2, 71 (1966).";
-
-/// The NetCDF library is not made for several threads at a time.
-std::mutex& library() {
-  static std::mutex mutex;
-  return mutex;
-}
 
 /// A NetCDF file that is closed whatever happens.
 class Handle {
@@ -248,7 +243,7 @@ class Reader {
 void write_species_file(const std::string& path, const SpeciesFile& file) {
   WholeFile whole(path);
   {
-    const std::lock_guard guard(library());
+    const std::lock_guard guard(netcdf_library());
     Writer(path).write(whole.temporary_path(), file);
   }
   const std::string seal = seal_of(bytes_of(whole.temporary_path()));
@@ -260,7 +255,7 @@ void write_species_file(const std::string& path, const SpeciesFile& file) {
 }
 
 SpeciesFile read_species_file(const std::string& path) {
-  const std::lock_guard guard(library());
+  const std::lock_guard guard(netcdf_library());
   return Reader(path).read();
 }
 

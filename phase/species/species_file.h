@@ -1,6 +1,6 @@
 #pragma once
 // A scattering table as a NetCDF-4 file that other programs open: CF units and names, the recipe and its id as
-// attributes. The only file with NetCDF.
+// attributes.
 
 #include <string>
 

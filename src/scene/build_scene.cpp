@@ -61,10 +61,10 @@ void add_medium(const MediumSettings& settings, const SceneSettings& scene, cons
     component.extinction_scale = one.is_species ? 1 : static_cast<float>(settings.extinction_per_m);
     component.albedo_scale = static_cast<float>(settings.albedo);
     component.size_um = one.size_um;
-    if (!one.is_species && component.size_um == 0 && recipe.is_sphere()) {
-      if (recipe.size_um.size() > 1 && options.log)
+    if (const phase::ScatteringTable* table = component.species->table(); table && !one.is_species && component.size_um == 0) {
+      if (table->size_um.size() > 1 && options.log)
         options.log(where + ": the grid has no sizes; all particles get the recipe's middle size node");
-      component.size_um = static_cast<float>(recipe.size_um[recipe.size_um.size() / 2]);
+      component.size_um = static_cast<float>(table->size_um[table->size_um.size() / 2]);
     }
     if (one.is_species && settings.extinction_per_m != 1)
       throw bad_input(where + ": extinction_per_m", number_text(settings.extinction_per_m),

@@ -60,6 +60,14 @@ expect 2 "r.toml:1.*Did you mean 'mie'" "$ARCUS" phase compute r.toml
 printf 'type = "hg"\ng = 1.5\n' >r.toml
 expect 2 'r.toml:2.*g: 1.5' "$ARCUS" phase compute r.toml
 expect 2 'none.toml' "$ARCUS" phase eval none.toml
+mkdir tables
+printf 'type = "table"\nfile = "t.txt"\n' >tables/r.toml
+expect 2 'tables/t.txt' "$ARCUS" phase compute tables/r.toml -o t.nc
+printf '0 1\n90 -1\n180 1\n' >tables/t.txt
+expect 2 'tables/t.txt: the value -1' "$ARCUS" phase compute tables/r.toml -o t.nc
+printf 'CDF\001' >tables/t.txt
+expect 2 'tables/t.txt: 4 bytes found' "$ARCUS" phase compute tables/r.toml -o t.nc
+absent t.nc
 expect 2 'size' "$ARCUS" phase sphere --x -1
 expect 2 'angles' "$ARCUS" phase sphere --x 1 --angles-deg 0:x:3
 expect 2 'angles' "$ARCUS" phase sphere --x 1 --angles-deg 0,200
@@ -80,6 +88,32 @@ absent a.exr a.png
 printf '0,0,0,1\n1,0,0,nan\n' >points.csv
 expect 2 'points.csv:2|nan' "$ARCUS" author field --file points.csv -o nan.vdb
 absent nan.vdb
+
+# The water of a cloud model.
+les() {  # les FILE LINES...: a small model output with changes
+  printf 'netcdf les { dimensions: z = 2, y = 2, x = 2; variables: float x(x), y(y), z(z), QC(z, y, x); x:units = "m"; y:units = "m"; z:units = "m"; QC:units = "g/m3";
+    %s
+    data: x = 0, 50; y = 0, 50; z = 500, 520; QC = 0, 0, 0, 0.1, 0, 0.2, 0.2, 0.3; %s }\n' "$2" "$3" | ncgen -o "$1"
+}
+les les.nc '' ''
+expect 2 'no variable .QD. .water.*Did you mean .QC' "$ARCUS" author field --file les.nc --water QD -o les.vdb
+expect 2 'no variable .NC. .number' "$ARCUS" author field --file les.nc --number NC -o les.vdb
+head -c $(($(stat -c %s les.nc) - 5)) les.nc >cut.nc
+expect 2 'cut.nc: [0-9]+ bytes found; [0-9]+ expected by its header' "$ARCUS" author field --file cut.nc -o les.vdb
+printf 'hello' >text.nc
+expect 2 'text.nc: no NetCDF file' "$ARCUS" author field --file text.nc -o les.vdb
+expect 2 'none.nc: no file' "$ARCUS" author field --file none.nc -o les.vdb
+les les.nc 'QC:units = "furlong";' ''
+expect 2 "units 'furlong' found.*g/kg.*water_unit" "$ARCUS" author field --file les.nc -o les.vdb
+les les.nc '' 'QC = 0, 0, 0, 0.1, 0, -0.2, 0.2, 0.3;'
+expect 2 'x = 50 m, y = 0 m, z = 520 m: -0.2 g/m3' "$ARCUS" author field --file les.nc -o les.vdb
+les les.nc 'x:units = "degrees_east";' ''
+expect 2 'latitude or longitude.*Project' "$ARCUS" author field --file les.nc -o les.vdb
+printf '2\n2 2 2\n0.05 0.05\n0.5 0.55 0.6\n288 288 288\n1 1 1 0.2 8\n2 2 2 0.4' >cut.lwc
+expect 2 'cut.lwc:7: 4 columns' "$ARCUS" author field --file cut.lwc -o les.vdb
+printf '[[medium]]\n' >text.lwc
+expect 2 'text.lwc:1' "$ARCUS" author field --file text.lwc -o les.vdb
+absent les.vdb
 
 # Outputs that cannot be written: exit 1, before any work.
 scene a.toml

@@ -40,6 +40,22 @@ printf '0,0,0,0.5\n1,0,0,0.25\n0,0,2,0.125\n' >points.csv
 must "$ARCUS" author field --file points.csv -o field.vdb
 expect 0 'active_voxels: 3' "$ARCUS" info field.vdb
 
+# The water of a cloud model: NetCDF with uneven levels, and an LWC file.
+cat >les.cdl <<'CDL'
+netcdf les { dimensions: z = 3, y = 2, x = 2;
+variables: float x(x), y(y), z(z), QC(z, y, x); x:units = "m"; y:units = "m"; z:units = "km"; QC:units = "g/kg"; QC:_FillValue = -999.f;
+data: x = 0, 50; y = 0, 50; z = 0.5, 0.52, 0.56; QC = 0, 0, 0, 0.1, 0, 0.2, 0.2, 0.3, 0, 0, 0.1, 0.1; }
+CDL
+ncgen -o les.nc les.cdl
+expect 0 "water from 'QC' times .*Standard Atmosphere" "$ARCUS" author field --file les.nc --number-per-cm3 100 -o les.vdb
+expect 0 'uneven layers became' "$ARCUS" author field --file les.nc --number-per-cm3 100 -o les.vdb
+# 1 g/kg near 540 m is 1.16 g/m3; layers of 20, 30 and 40 m, cells of 50 m: 81 kg.
+kilograms=$("$ARCUS" info les.vdb --png views.png | sed -n 's/^water_kg: //p')
+check "the water of the model is kept: $kilograms kg" awk -v kg="$kilograms" 'BEGIN { w = 1.163 * 2500 * (20 * 0.1 + 30 * 0.7 + 40 * 0.2) / 1000; exit !(kg > 0.98 * w && kg < 1.02 * w) }'
+printf '2 parameter LWC file\n2 2 2\n0.05 0.05\n0.5 0.55 0.6\n288 288 288\n1 1 1 0.2 8\n2 2 2 0.4 12\n' >les.lwc
+expect 0 'effective radius 8 to 12 um' "$ARCUS" author field --file les.lwc -o lwc.vdb
+expect 0 'cloud.size' "$ARCUS" info lwc.vdb
+
 # Phase functions.
 "$ARCUS" phase sphere --x 10 --n 1.33 --k 1e-8 --angles-deg 0,90,180 --json >sphere.json
 for key in qext qsca qback g angles_deg s1_re s1_im s2_re s2_im; do
@@ -55,6 +71,17 @@ must "$ARCUS" phase plot drops.toml -o drops.png --polar polar.png --size-um 4
 check 'phase plot makes a PNG' is_png drops.png
 check 'phase plot --polar makes a PNG' is_png polar.png
 expect 0 'recipe' "$ARCUS" info drops.nc
+
+# A table from elsewhere: named relative to its recipe, and rendered from any folder.
+mkdir -p tables/scenes
+printf 'angle 450 650\n0 30 20\n90 1 1\n180 2 1\n' >tables/t.txt
+printf 'type = "table"\nfile = "t.txt"\n' >tables/r.toml
+expect 0 "column '450': its integral over the sphere is" "$ARCUS" phase compute tables/r.toml -o tables/own.nc
+must "$ARCUS" author box --optical-depth 1 --phase tables/r.toml -o tables/box.vdb
+printf '[camera]\nresolution = [8, 8]\nposition_m = [0, -5, 0]\n[[medium]]\nvdb = "../box.vdb"\n' >tables/scenes/s.toml
+check 'a VDB with a table renders from its own folder' bash -c "cd tables/scenes && '$ARCUS' render s.toml --spp 1 --quiet"
+printf 'phase = { type = "table", file = "../own.nc" }\n' >>tables/scenes/s.toml
+check 'a table of phase compute serves a scene' "$ARCUS" render tables/scenes/s.toml --spp 1 --quiet
 
 # Render, with options that change the scene; the EXR knows it.
 must "$ARCUS" author box -o box.vdb --optical-depth 1 --phase drops.toml
@@ -109,7 +136,7 @@ must "$ARCUS" render box.toml -o whole.exr --spp 4000 --no-png
 check 'resumed and whole pictures differ' bash -c "'$ARCUS' compare cut.exr whole.exr | grep -qE '^R .* 0 +0 +0 '"
 # Ctrl-C: shells start background jobs with SIGINT ignored, so the program is started with it set anew.
 checks=$((checks + 1))
-timeout --preserve-status --signal INT 4 "$ARCUS" render box.toml -o int.exr --spp 1000000 --no-png --quiet 2>"$work/.stderr"
+timeout --foreground --preserve-status --signal INT 4 "$ARCUS" render box.toml -o int.exr --spp 1000000 --no-png --quiet 2>"$work/.stderr"
 found=$?
 [ $found -eq 130 ] || complain "Ctrl-C ended a render with $found, not 130"
 expect 0 'samples_per_pixel' "$ARCUS" info int.exr

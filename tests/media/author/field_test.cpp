@@ -63,7 +63,7 @@ TEST_F(FieldTest, RawNumbersLandWhereTheyBelong) {
   settings.first_m = {5, 6, 7};
   settings.voxel_m = {2, 3, 4};
   settings.scale = 0.5;
-  const auto grids = author_field(settings, folder_);
+  const auto grids = author_field(settings, folder_).grids;
   ASSERT_EQ(grids.size(), 1u);
   EXPECT_EQ(grids[0].name, "density");
   EXPECT_TRUE(grids[0].metadata.empty());
@@ -73,7 +73,7 @@ TEST_F(FieldTest, RawNumbersLandWhereTheyBelong) {
   settings.file = "x.raw";
   settings.order = "x_fastest";
   settings.format = "float64";
-  const auto again = author_field(settings, folder_);
+  const auto again = author_field(settings, folder_).grids;
   for (int x = 0; x < 10; ++x)
     for (int z = 0; z < 9; ++z) EXPECT_EQ(at(again[0], x, 1, z), at(grids[0], x, 1, z));
 }
@@ -86,7 +86,7 @@ TEST_F(FieldTest, ColumnsWithPositionsMakeASpecies) {
   settings.name = "cloud";
   settings.has_phase = true;
   settings.phase.type = "hg";
-  const auto grids = author_field(settings, folder_);
+  const auto grids = author_field(settings, folder_).grids;
   ASSERT_EQ(grids.size(), 2u);
   EXPECT_EQ(grids[0].name, "cloud.extinction");
   EXPECT_EQ(grids[1].name, "cloud.size");
@@ -103,7 +103,7 @@ TEST_F(FieldTest, OneColumnIsADenseList) {
   FieldSettings settings;
   settings.file = "list.txt";
   settings.dimensions = {1, 2, 3};
-  EXPECT_EQ(at(author_field(settings, folder_)[0], 0, 1, 2), 6);
+  EXPECT_EQ(at(author_field(settings, folder_).grids[0], 0, 1, 2), 6);
 }
 
 TEST_F(FieldTest, RefusalsSayWhere) {

@@ -153,6 +153,32 @@ TEST_F(StoredMediumTest, GridsOfOneNameArePickedByOrder) {
   EXPECT_TRUE(says(refusal(path, "smokes"), {"Did you mean 'smoke'"}));
 }
 
+TEST_F(StoredMediumTest, StrangeNamesCanBeChosen) {
+  const std::string path = file({cube("", 1), cube("two\nlines\x1b[31m", 2), cube("ρ of water", 3), cube("heat", 4)});
+  EXPECT_TRUE(says(refusal(path), {"'[0]'", "'two?lines?[31m'", "'ρ of water'", "'heat'"}));
+  EXPECT_EQ(read_media(path, "[0]").media.at(0).grid->at(5, 5, 5).extinction, 1);
+  EXPECT_EQ(read_media(path, "two?lines?[31m").media.at(0).grid->at(5, 5, 5).extinction, 2);
+  EXPECT_EQ(read_media(path, "two\nlines\x1b[31m").media.at(0).grid->at(5, 5, 5).extinction, 2);
+  EXPECT_EQ(read_media(path, "ρ of water").media.at(0).grid->at(5, 5, 5).extinction, 3);
+  EXPECT_EQ(refusal(path).find('\x1b'), std::string::npos) << "a name reaches the terminal as it is";
+}
+
+TEST_F(StoredMediumTest, TransformsAreReadAsTheyAre) {
+  for (const Affine& map : {Affine{{1e6, 0, 0}, {0, 1e6, 0}, {0, 0, 1e6}, {3, 4, 5}}, Affine{{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}},
+                            Affine{{1, 0.7, 0}, {0, 1, 0}, {-0.4, 0, 1}, {1e7, 0, 0}}, Affine{{0, 0, 2}, {3, 0, 0}, {0, 4, 0}, {0, 0, 0}},
+                            Affine{{2e-5, 0, 0}, {0, 2e-5, 0}, {0, 0, 2e-5}, {0, 0, 0}}, Affine{{100, 0, 0}, {0, 100, 0}, {0, 0, 1e-3}, {0, 0, 0}}}) {
+    const auto grid = cube("density", 1);
+    openvdb::math::Mat4d matrix = openvdb::math::Mat4d::identity();
+    const Vec3 rows[] = {map.x, map.y, map.z, map.origin};
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 3; ++j) matrix(i, j) = rows[i][j];
+    grid->setTransform(openvdb::math::Transform::createLinearTransform(matrix));
+    const Affine found = read_media(file({grid}), "").media.at(0).world_from_index;
+    for (const Vec3& p : {Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)})
+      EXPECT_LT(length(found.point(p) - map.point(p)), 1e-12 * (1 + length(map.point(p)))) << map.x.x;
+  }
+}
+
 TEST_F(StoredMediumTest, OtherTypesAreRefusedNamingWhatWouldDo) {
   openvdb::initialize();
   const auto sphere = cube("surface", 1);
