@@ -27,7 +27,7 @@ struct MajorantSource {
 
 /// What it costs to step through a cell and to look at a tentative collision: their ratio decides the cells' sizes.
 struct MajorantCosts {
-  double cell_ns = 8, collision_ns = 40;
+  double cell_ns = 5, collision_ns = 40;
 };
 
 class MajorantGrid {
