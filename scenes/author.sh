@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Authors the media of the scenes in this folder. Usage: scenes/author.sh ARCUS NAME (rain_shower | cumulus | fogbow | glory | slab)
+# Authors the media of the scenes in this folder. Usage: scenes/author.sh ARCUS NAME (rain_shower | cumulus | fogbow | glory | corona | slab)
 set -euo pipefail
 arcus=$(realpath "${1:?usage: author.sh ARCUS NAME}")
 cd "$(dirname "${BASH_SOURCE[0]}")"
@@ -14,10 +14,16 @@ case "${2:?usage: author.sh ARCUS NAME}" in
     "$arcus" author fog -o fogbow.vdb --kind advection --centre-m 0,330,0 --size-m 1600,500 --top-m 160 --liquid-g-per-m3 0.03 \
       --radius-um 10 --radius-at-base-um 10 --variance 0.05 ;;
   glory)
-    "$arcus" author cloud -o glory.vdb --kind stratocumulus --centre-m 0,1000,0 --size-m 3000 --base-m 500 --depth-m 250 \
-      --drops-per-cm3 200 --variance 0.03 ;;
+    "$arcus" author fog -o glory.vdb --kind radiation --centre-m 0,150,0 --size-m 400,320 --base-m 86 --top-m 100 --waves-m 1.2 --voxel-m 2 \
+      --liquid-g-per-m3 0.3 --radius-um 9 --radius-at-base-um 8 --variance 0.03
+    # Who stands behind the camera: black, for all the light that meets him.
+    "$arcus" author box -o observer.vdb --name observer --optical-depth 400 --centre-m=0,-0.6,105.4 --size-m 0.55,0.35,1.9 --voxels 4,4,4 \
+      --phase-type isotropic ;;
+  corona)
+    "$arcus" author cloud -o corona.vdb --kind stratocumulus --centre-m 0,4300,0 --size-m 4000 --base-m 3000 --depth-m 120 --cell-m 500 \
+      --cover 0.9 --drops-per-cm3 250 --liquid-gradient-g-per-m3-km 1.2 --adiabatic-share 0.5 --variance 0.02 --voxel-m 10 --detail 0.5 ;;
   slab)
     "$arcus" author box -o slab.vdb --name layer --optical-depth 5 --centre-m 0,0,0 --size-m 100000,100000,1 --voxels 4,4,4 \
       --phase-type hg --phase-g 0.85 ;;
-  *) echo "author.sh: no medium for '$2'; known: rain_shower, cumulus, fogbow, glory, slab" >&2; exit 2 ;;
+  *) echo "author.sh: no medium for '$2'; known: rain_shower, cumulus, fogbow, glory, corona, slab" >&2; exit 2 ;;
 esac

@@ -114,7 +114,7 @@ TEST(Slab, ReflectedRadiancesMeetTheReference) { compare(rows("slab_reflected.cs
 TEST(Slab, TransmittedRadiancesMeetTheReference) { compare(rows("slab_transmitted.csv", -1)); }
 
 TEST(Slab, WhatComesInGoesOut) {
-  for (const double tau : {1.0, 5.0, 20.0}) {
+  for (const double tau : {1.0, 5.0, 20.0, 100.0}) {
     const Slab slab{.asymmetry = 0.85, .albedo = 1, .optical_depth = tau, .sun_zenith_deg = 60};
     const Scene scene = slab_scene(slab);
     const Moments up = flux(scene, 1, 0.5), down = flux(scene, -1, 0.5);
