@@ -81,7 +81,10 @@ struct VolumePath::Path {
 };
 
 VolumePath::VolumePath(const Scene& scene, long long max_bounces)
-    : scene_(scene), max_bounces_(max_bounces), sun_reach_(*scene.medium, scene.sun.to_centre()) {}
+    : VolumePath(scene, max_bounces, SunReach(*scene.medium, scene.sun.to_centre())) {}
+
+VolumePath::VolumePath(const Scene& scene, long long max_bounces, SunReach sun_reach)
+    : scene_(scene), max_bounces_(max_bounces), sun_reach_(std::move(sun_reach)) {}
 
 Spectrum VolumePath::radiance(const media::Ray& camera_ray, const Wavelengths& wavelengths, const FirstNumbers& first,
                               Random& random, Work& work) const {

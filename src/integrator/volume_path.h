@@ -36,6 +36,8 @@ class VolumePath {
  public:
   /// max_bounces: scatterings and reflections a path may have; 0 shows only what is seen directly.
   VolumePath(const Scene& scene, long long max_bounces);
+  /// With another guess of how deep places lie, as the sun sees them: of the noise alone.
+  VolumePath(const Scene& scene, long long max_bounces, SunReach sun_reach);
 
   /// An unbiased estimate of the radiance that arrives along the ray against its direction [W m-2 sr-1 nm-1]. Adds to `work` what
   /// it took.
