@@ -23,13 +23,14 @@ constexpr float paths_to_sun = 0.2f;
 /// the sun would be far too bright.
 constexpr float again_to_sun = 0.3f;
 
-/// Paths expected to bring less than this, in units of the mean over all directions, are left to chance; those that are
-/// expected to bring more than the other are split.
+/// Paths expected to bring less than this, in units of the mean over all directions and of what the camera sees, are left to
+/// chance; those that are expected to bring more than the other are split.
 constexpr float roulette_below = 0.2f, split_above = 0.7f;
 constexpr int most_splits = 50;
 
-/// Rays to the sun expected to bring less than this are left to chance, at least one in fifty being sent.
-constexpr float enough_for_sun_ray = 0.2f, least_sun_rays = 0.02f;
+/// Rays to the sun expected to bring less than this are left to chance, at least one in fifty being sent. The first of a path
+/// brings all that is seen of thin media, and is rarely spared.
+constexpr float enough_for_first_sun_ray = 0.01f, enough_for_sun_ray = 0.1f, least_sun_rays = 0.02f;
 /// The coarse optical depth overlooks holes: this share of it is believed.
 constexpr float believed_depth = 0.7f;
 
@@ -53,6 +54,8 @@ struct VolumePath::Path {
   float sun_share = 1;
   /// How bright it is likely to be where the path goes, in units of the mean over all directions.
   float promise = 1;
+  /// The weight of what the camera sees, in whose units it is judged what a path may bring.
+  float seen_weight = 1;
   long long bounces = 0;
 
   Spectrum contribution(const Spectrum& light) const { return weight * light / density.mean(); }
@@ -65,7 +68,7 @@ struct VolumePath::Path {
   }
 
   /// What it is expected to bring, in units of the mean over all directions.
-  float expectation() const { return weight.max() / density.mean() * promise; }
+  float expectation() const { return weight.max() / (density.mean() * seen_weight) * promise; }
 
   /// Ends paths that have little left to bring; the survivors take over (Arvo and Kirk 1990).
   bool survives_roulette(Random& random) {
@@ -100,7 +103,10 @@ Spectrum VolumePath::radiance(const media::Ray& camera_ray, const Wavelengths& w
     Path straight = path;
     straight.weight *= static_cast<float>(std::exp(-depth));
     if (pass(straight, hit, sample)) follow(straight, sample);
-    path.weight *= static_cast<float>(-std::expm1(-depth));
+    const auto scattered = static_cast<float>(-std::expm1(-depth));
+    path.weight *= scattered;
+    // Before the sky a medium is what is looked at, thin as it may be.
+    if (!hit) path.seen_weight = scattered;
     auto walk = media::CollisionWalk::forced(*scene_.medium, path.ray, wavelengths, random, depth, first.collision);
     if (advance(path, walk, hit, sample)) follow(path, sample);
     return sample.total;
@@ -187,8 +193,9 @@ void VolumePath::scatter(Path& path, const media::Collision& collision, Sample& 
   const auto sun_ray_weight = [&](const Spectrum& value) -> float {
     const float mean_or_more = 4 * static_cast<float>(pi) * value.max();
     const float transmittance = std::exp(-believed_depth * sun_reach_.optical_depth(collision.position_m));
-    const float expected = path.weight.max() / path.density.mean() * mean_or_more * transmittance;
-    const float probability = std::clamp(expected / enough_for_sun_ray, least_sun_rays, 1.f);
+    const float expected = path.weight.max() / (path.density.mean() * path.seen_weight) * mean_or_more * transmittance;
+    const float enough = path.bounces > 1 ? enough_for_sun_ray : enough_for_first_sun_ray;
+    const float probability = std::clamp(expected / enough, least_sun_rays, 1.f);
     return probability == 1 ? 1 : random.uniform() < probability ? 1 / probability : 0;
   };
   if (sun.is_on()) {

@@ -45,6 +45,17 @@ std::uint64_t test_seed(std::uint64_t which) {
   return mixed(hash ^ mixed(sweep() ^ mixed(which)));
 }
 
+double test_effort() {
+  const char* text = std::getenv("TEST_EFFORT");
+  if (text == nullptr || *text == 0) return 1;
+  const std::string_view view(text);
+  double value = 0;
+  const auto [end, fault] = std::from_chars(view.begin(), view.end(), value);
+  if (fault != std::errc() || end != view.end() || !(value > 0))
+    throw std::invalid_argument("TEST_EFFORT: " + std::string(view) + " found; expected a positive number");
+  return value;
+}
+
 std::string how_to_repeat() { return "TEST_SEED=" + std::to_string(sweep()); }
 
 }  // namespace arcus::statistics

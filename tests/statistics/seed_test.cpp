@@ -10,21 +10,22 @@ namespace arcus::statistics {
 
 namespace {
 
-/// Sets TEST_SEED for the life of the object.
+/// Sets a variable of the environment for the life of the object.
 class Sweep {
  public:
-  explicit Sweep(const char* value) {
-    if (const char* old = std::getenv("TEST_SEED")) old_ = old;
-    setenv("TEST_SEED", value, 1);
+  explicit Sweep(const char* value, const char* name = "TEST_SEED") : name_(name) {
+    if (const char* old = std::getenv(name)) old_ = old;
+    setenv(name, value, 1);
   }
   ~Sweep() {
     if (old_)
-      setenv("TEST_SEED", old_->c_str(), 1);
+      setenv(name_, old_->c_str(), 1);
     else
-      unsetenv("TEST_SEED");
+      unsetenv(name_);
   }
 
  private:
+  const char* name_;
   std::optional<std::string> old_;
 };
 
@@ -57,6 +58,21 @@ TEST(Seed, RefusesWhatIsNoNumber) {
   for (const char* wrong : {"x", "-1", "1.5", " 1"}) {
     const Sweep sweep(wrong);
     EXPECT_THROW(test_seed(), std::invalid_argument) << wrong;
+  }
+}
+
+TEST(Effort, IsOneUnlessTheEnvironmentSaysElse) {
+  {
+    const Sweep none("", "TEST_EFFORT");
+    EXPECT_EQ(test_effort(), 1);
+  }
+  {
+    const Sweep half("0.5", "TEST_EFFORT");
+    EXPECT_EQ(test_effort(), 0.5);
+  }
+  for (const char* wrong : {"x", "-1", "0", "2x", "nan"}) {
+    const Sweep sweep(wrong, "TEST_EFFORT");
+    EXPECT_THROW(test_effort(), std::invalid_argument) << wrong;
   }
 }
 
