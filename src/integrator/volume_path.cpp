@@ -26,7 +26,7 @@ constexpr float again_to_sun = 0.3f;
 /// Paths expected to bring less than this, in units of the mean over all directions and of what the camera sees, are left to
 /// chance; those that are expected to bring more than the other are split.
 constexpr float roulette_below = 0.2f, split_above = 0.7f;
-constexpr int most_splits = 50;
+constexpr int most_splits = 4;
 
 /// Rays to the sun expected to bring less than this are left to chance, at least one in fifty being sent. The first of a path
 /// brings all that is seen of thin media, and is rarely spared.
