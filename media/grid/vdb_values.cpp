@@ -64,14 +64,16 @@ struct Parts {
   std::vector<const Leaf*> leaves;
   std::vector<Tile> tiles;
 
-  /// wanted(value): what an active voxel may hold.
-  Parts(const Grid& grid, bool (*wanted)(double), const std::string& where, const std::string& expected) {
+  /// wanted(value): whether an active voxel may hold that.
+  template <class Wanted>
+  Parts(const Grid& grid, const Wanted& wanted, const std::string& where, const std::string& expected) {
     for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) leaves.push_back(leaf.getLeaf());
     std::vector<Complaint> complaints(leaves.size());
     tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t i) {
-      for (auto value = leaves[i]->cbeginValueOn(); value; ++value)
-        if (!wanted(static_cast<double>(*value)))
-          complaints[i].offer(coord_of(value.getCoord()), static_cast<double>(*value));
+      const Leaf& leaf = *leaves[i];
+      for (openvdb::Index v = 0; v < SparseGrid::brick_voxels; ++v)
+        if (const auto value = static_cast<double>(leaf.getValue(v)); !wanted(value) && leaf.isValueOn(v))
+          complaints[i].offer(coord_of(leaf.offsetToGlobalCoord(v)), value);
     });
     Complaint first;
     for (const Complaint& complaint : complaints) first.offer(complaint);
@@ -102,10 +104,9 @@ void for_cubes(const IndexBox& box, int step, const Visit& visit) {
       for (int z = box.low.z; z <= box.high.z; z += step) visit(Coord{x, y, z});
 }
 
-float size_at(const SizeField& sizes, const Coord& c) {
-  const float own = sizes.grid.at(c.x, c.y, c.z).extinction;
-  return own == 0 ? sizes.elsewhere : own;
-}
+/// The sizes of a brick's voxels, in their order; 0 stands for the size elsewhere.
+const float* sizes_of_brick(const SizeField& sizes, const Coord& first) { return sizes.grid.address(first.x, first.y, first.z); }
+
 /// The one size of all voxels in a cube, where there is one.
 std::optional<float> common_size(const SizeField* sizes, const Coord& first, int step) {
   if (!sizes) return 0.f;
@@ -120,10 +121,11 @@ SparseGrid convert(const Parts<Grid>& parts, const SizeField* sizes, bool inacti
   using Leaf = typename Grid::TreeType::LeafNodeType;
   IndexBox box;
   std::vector<const Leaf*> leaves;
-  for (const Leaf* leaf : parts.leaves) {
-    const IndexBox inside = box_of_values(*leaf, inactive_too);
-    if (!inside.is_empty()) leaves.push_back(leaf);
-    box.include(inside);
+  std::vector<IndexBox> boxes(parts.leaves.size());
+  tbb::parallel_for(std::size_t{0}, boxes.size(), [&](std::size_t i) { boxes[i] = box_of_values(*parts.leaves[i], inactive_too); });
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    if (!boxes[i].is_empty()) leaves.push_back(parts.leaves[i]);
+    box.include(boxes[i]);
   }
   for (const Tile& tile : parts.tiles)
     if (tile.value != 0) box.include(tile.box);
@@ -168,22 +170,22 @@ SparseGrid convert(const Parts<Grid>& parts, const SizeField* sizes, bool inacti
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t b) {
     const Leaf& leaf = *leaves[b];
     float* out = builder.values(numbers[b]);
+    const float* own = sizes ? sizes_of_brick(*sizes, coord_of(leaf.origin())) : nullptr;
     for (openvdb::Index i = 0; i < SparseGrid::brick_voxels; ++i) {
       const float value = inactive_too || leaf.isValueOn(i) ? static_cast<float>(leaf.getValue(i)) : 0.f;
       *out++ = value;
       if (!sizes) continue;
-      const Coord c = coord_of(leaf.offsetToGlobalCoord(i));
-      const float size = value > 0 ? size_at(*sizes, c) : 0.f;
-      if (value > 0 && !is_size(size)) complaints[b].offer(c, size);
+      const float size = value > 0 ? own[i] == 0 ? sizes->elsewhere : own[i] : 0.f;
+      if (value > 0 && !is_size(size)) complaints[b].offer(coord_of(leaf.offsetToGlobalCoord(i)), size);
       *out++ = size;
     }
   });
   for (const UnevenBrick& brick : uneven) {
     float* out = builder.values(brick.number);
+    const float* own = sizes_of_brick(*sizes, brick.first);
     for (int i = 0; i < SparseGrid::brick_voxels; ++i) {
-      const Coord c{brick.first.x + (i >> 6), brick.first.y + (i >> 3 & 7), brick.first.z + (i & 7)};
-      const float size = size_at(*sizes, c);
-      if (!is_size(size)) no_size.offer(c, size);
+      const float size = own[i] == 0 ? sizes->elsewhere : own[i];
+      if (!is_size(size)) no_size.offer({brick.first.x + (i >> 6), brick.first.y + (i >> 3 & 7), brick.first.z + (i & 7)}, size);
       *out++ = brick.value;
       *out++ = size;
     }
