@@ -25,7 +25,7 @@ constexpr float again_to_sun = 0.3f;
 
 /// Paths expected to bring less than this, in units of the mean over all directions and of what the camera sees, are left to
 /// chance; those that are expected to bring more than the other are split.
-constexpr float roulette_below = 0.2f, split_above = 0.7f;
+constexpr float roulette_below = 0.2f, split_above = 1;
 constexpr int most_splits = 4;
 
 /// Rays to the sun expected to bring less than this are left to chance, at least one in fifty being sent. The first of a path
@@ -68,7 +68,7 @@ struct VolumePath::Path {
   }
 
   /// What it is expected to bring, in units of the mean over all directions.
-  float expectation() const { return weight.max() / (density.mean() * seen_weight) * promise; }
+  float expectation() const { return weight.mean() / (density.mean() * seen_weight) * promise; }
 
   /// Ends paths that have little left to bring; the survivors take over (Arvo and Kirk 1990).
   bool survives_roulette(Random& random) {
@@ -193,7 +193,7 @@ void VolumePath::scatter(Path& path, const media::Collision& collision, Sample& 
   const auto sun_ray_weight = [&](const Spectrum& value) -> float {
     const float mean_or_more = 4 * static_cast<float>(pi) * value.max();
     const float transmittance = std::exp(-believed_depth * sun_reach_.optical_depth(collision.position_m));
-    const float expected = path.weight.max() / (path.density.mean() * path.seen_weight) * mean_or_more * transmittance;
+    const float expected = path.weight.mean() / (path.density.mean() * path.seen_weight) * mean_or_more * transmittance;
     const float enough = path.bounces > 1 ? enough_for_sun_ray : enough_for_first_sun_ray;
     const float probability = std::clamp(expected / enough, least_sun_rays, 1.f);
     return probability == 1 ? 1 : random.uniform() < probability ? 1 / probability : 0;
