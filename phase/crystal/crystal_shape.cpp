@@ -119,6 +119,10 @@ bool same(const Plane& a, const Plane& b) {
 
 }  // namespace
 
+bool are_opposite(const CrystalFace& a, const CrystalFace& b) {
+  return squared_length(a.normal + b.normal) < 1e-20;
+}
+
 CrystalShape::CrystalShape(std::span<const HalfSpace> half_spaces) {
   const std::vector<Plane> planes = unit_planes(half_spaces);
   const auto refuse = [](const char* found, const char* hint) {
@@ -147,8 +151,20 @@ CrystalShape::CrystalShape(std::span<const HalfSpace> half_spaces) {
     // What is left of a plane through a mere edge or corner is rounding.
     if (made.area > 1e-11 * reach * reach) faces_.push_back(std::move(made));
   }
+  pair_opposites();
   measure();
   if (faces_.size() < 4 || !(volume_ > 0)) throw refuse("no room inside", "Move the planes apart");
+}
+
+void CrystalShape::pair_opposites() {
+  for (std::size_t i = 0; i + 1 < faces_.size(); ++i) {
+    const auto rest = faces_.begin() + static_cast<std::ptrdiff_t>(i) + 1;
+    const auto found = std::find_if(
+        rest, faces_.end(), [&](const CrystalFace& face) { return are_opposite(face, faces_[i]); });
+    if (found == faces_.end()) continue;
+    std::rotate(rest, found, found + 1);
+    ++i;
+  }
 }
 
 void CrystalShape::measure() {

@@ -27,6 +27,9 @@ struct CrystalFace {
   std::vector<Vec3> corners;  ///< counterclockwise seen from outside
 };
 
+/// Normals exactly against each other, but for rounding.
+bool are_opposite(const CrystalFace& a, const CrystalFace& b);
+
 class CrystalShape {
  public:
   /// What all the half-spaces have in common. A plane that does not touch it has no face, and of
@@ -35,7 +38,8 @@ class CrystalShape {
   /// close or have no point with room around it in common.
   explicit CrystalShape(std::span<const HalfSpace> half_spaces);
 
-  /// Those with an area, in the order of their half-spaces.
+  /// Those with an area, in the order of their half-spaces, but that a parallel face follows at
+  /// once.
   const std::vector<CrystalFace>& faces() const { return faces_; }
   double surface() const { return surface_; }
   double volume() const { return volume_; }
@@ -51,6 +55,7 @@ class CrystalShape {
   CrystalShape scaled_to(double maximum_dimension) const;
 
  private:
+  void pair_opposites();
   void measure();
 
   std::vector<CrystalFace> faces_;

@@ -9,26 +9,35 @@
 namespace arcus::phase {
 namespace {
 
-/// K. Shoemake, "Uniform Random Rotations", Graphics Gems III (1992): a unit quaternion uniform on
-/// its sphere.
-Orientation any_rotation(Random& random) {
-  const double u = random.uniform_double();
-  const double a = 2 * pi * random.uniform_double(), b = 2 * pi * random.uniform_double();
-  const double r = std::sqrt(1 - u), s = std::sqrt(u);
-  const double x = r * std::sin(a), y = r * std::cos(a), z = s * std::sin(b), w = s * std::cos(b);
-  return {{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
-          {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
-          {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
-}
+/// An angle by its cosine and sine.
+struct Angle {
+  double cosine = 1, sine = 0;
+};
+Angle angle_of(double rad) { return {std::cos(rad), std::sin(rad)}; }
+
+/// Uniform in [0, 1), 32 bits: one number of the stream where a double takes two.
+double any(Random& random) { return random.bits() * 0x1p-32; }
+Angle any_angle(Random& random) { return angle_of(2 * pi * any(random)); }
 
 /// `from` turned by the angle towards `to`, both unit and at right angles.
-Vec3 between_axes(const Vec3& from, const Vec3& to, double angle_rad) {
-  return from * std::cos(angle_rad) + to * std::sin(angle_rad);
+Vec3 between_axes(const Vec3& from, const Vec3& to, const Angle& angle) {
+  return from * angle.cosine + to * angle.sine;
 }
 
 /// Turned about its own c axis.
-Orientation rolled(const Orientation& o, double angle_rad) {
-  return {between_axes(o.x, o.y, angle_rad), between_axes(o.y, -o.x, angle_rad), o.c};
+Orientation rolled(const Orientation& o, const Angle& angle) {
+  return {between_axes(o.x, o.y, angle), between_axes(o.y, -o.x, angle), o.c};
+}
+
+/// K. Shoemake, "Uniform Random Rotations", Graphics Gems III (1992): a unit quaternion uniform on
+/// its sphere.
+Orientation any_rotation(Random& random) {
+  const double u = any(random), r = std::sqrt(1 - u), s = std::sqrt(u);
+  const Angle a = any_angle(random), b = any_angle(random);
+  const double x = r * a.sine, y = r * a.cosine, z = s * b.sine, w = s * b.cosine;
+  return {{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
+          {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
+          {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
 }
 
 }  // namespace
@@ -72,32 +81,30 @@ Orientations::Orientations(const OrientationSettings& settings)
 
 double Orientations::angle_rad(double width_rad, Random& random) const {
   if (width_rad == 0) return 0;
-  const double u = random.uniform_double();
+  const double u = any(random);
   if (!gaussian_) return width_rad * (2 * u - 1);
   // Box and Muller; 1 - u is never 0.
-  return width_rad * std::sqrt(-2 * std::log(1 - u)) * std::cos(2 * pi * random.uniform_double());
+  return width_rad * std::sqrt(-2 * std::log(1 - u)) * std::cos(2 * pi * any(random));
 }
 
 Orientation Orientations::draw(Random& random) const {
   if (kind_ == Kind::random) return any_rotation(random);
-  const double azimuth = 2 * pi * random.uniform_double();
-  const Vec3 ahead(std::cos(azimuth), std::sin(azimuth), 0), left(-ahead.y, ahead.x, 0),
-      up(0, 0, 1);
-  const double tilt = angle_rad(tilt_rad_, random);
+  const Angle azimuth = any_angle(random);
+  const Vec3 ahead(azimuth.cosine, azimuth.sine, 0), left(-ahead.y, ahead.x, 0), up(0, 0, 1);
+  const Angle tilt = angle_of(angle_rad(tilt_rad_, random));
   if (kind_ == Kind::plate) {
     const Orientation upright{between_axes(ahead, -up, tilt), left, between_axes(up, ahead, tilt)};
-    return rolled(upright, 2 * pi * random.uniform_double());
+    return rolled(upright, any_angle(random));
   }
   const Vec3 axis = between_axes(ahead, up, tilt), top = between_axes(up, -ahead, tilt);
   if (kind_ == Kind::lowitz) {
-    const double roll =
-        roll_rad_ >= pi ? 2 * pi * random.uniform_double() : angle_rad(roll_rad_, random);
+    const Angle roll = roll_rad_ >= pi ? any_angle(random) : angle_of(angle_rad(roll_rad_, random));
     // c turns about the diagonal; the diagonal lies 30 deg from x, between faces 3 and 4.
     const Vec3 c = between_axes(top, left, roll);
-    return rolled({axis, cross(c, axis), c}, -pi / 6);
+    return rolled({axis, cross(c, axis), c}, angle_of(-pi / 6));
   }
-  const double roll =
-      kind_ == Kind::parry ? angle_rad(roll_rad_, random) : 2 * pi * random.uniform_double();
+  const Angle roll =
+      kind_ == Kind::parry ? angle_of(angle_rad(roll_rad_, random)) : any_angle(random);
   return rolled({top, cross(axis, top), axis}, roll);
 }
 
