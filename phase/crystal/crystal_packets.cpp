@@ -84,48 +84,46 @@ CrystalTables::CrystalTables(const CrystalShape& shape) {
 
 namespace {
 
-#define ARCUS_INLINE [[gnu::always_inline]] inline
-
 template <typename F>
 using Ints = decltype(F{} < F{});
 
 template <typename F>
-ARCUS_INLINE F all(float value) {
+[[gnu::always_inline]] inline F all(float value) {
   return filled<F>(value);
 }
 /// a b + c with one rounding.
 template <typename F>
-ARCUS_INLINE F madd(const F& a, const F& b, F c) {
+[[gnu::always_inline]] inline F madd(const F& a, const F& b, F c) {
   add_product(c, a, b);
   return c;
 }
 template <typename F>
-ARCUS_INLINE F root(const F& a) {
+[[gnu::always_inline]] inline F root(const F& a) {
   F result;
   asm("vsqrtps %1, %0" : "=v"(result) : "v"(a));
   return result;
 }
 template <typename F>
-ARCUS_INLINE F with_sign_flipped(const F& a, const Ints<F>& sign) {
+[[gnu::always_inline]] inline F with_sign_flipped(const F& a, const Ints<F>& sign) {
   return reinterpret_cast<F>(reinterpret_cast<Ints<F>>(a) ^ sign);
 }
 template <typename F>
-ARCUS_INLINE Ints<F> sign_of(const F& a) {
+[[gnu::always_inline]] inline Ints<F> sign_of(const F& a) {
   return reinterpret_cast<Ints<F>>(a) & static_cast<std::int32_t>(0x80000000u);
 }
 template <typename F>
-ARCUS_INLINE F absolute(const F& a) {
+[[gnu::always_inline]] inline F absolute(const F& a) {
   return reinterpret_cast<F>(reinterpret_cast<Ints<F>>(a) & 0x7fffffff);
 }
 template <typename F>
-ARCUS_INLINE F larger(const F& a, const F& b) {
+[[gnu::always_inline]] inline F larger(const F& a, const F& b) {
   return a > b ? a : b;
 }
 
 /// exp of numbers up to 0, to two units in the last place: powers of two and Taylor's series within
 /// half an octave.
 template <typename F>
-ARCUS_INLINE F exponential(F x) {
+[[gnu::always_inline]] inline F exponential(F x) {
   x = larger(x, all<F>(-87.0f));
   const F shift =
       all<F>(12582912.0f);  // 1.5 2^23: adding it rounds to a whole number in the last bits
@@ -145,19 +143,21 @@ struct Triple {
   F x, y, z;
 };
 template <typename F>
-ARCUS_INLINE F product(const Triple<F>& a, const Triple<F>& b) {
+[[gnu::always_inline]] inline F product(const Triple<F>& a, const Triple<F>& b) {
   return madd(a.x, b.x, madd(a.y, b.y, a.z * b.z));
 }
 template <typename F>
-ARCUS_INLINE Triple<F> crossed(const Triple<F>& a, const Triple<F>& b) {
+[[gnu::always_inline]] inline Triple<F> crossed(const Triple<F>& a, const Triple<F>& b) {
   return {madd(a.y, b.z, -(a.z * b.y)), madd(a.z, b.x, -(a.x * b.z)), madd(a.x, b.y, -(a.y * b.x))};
 }
 template <typename F>
-ARCUS_INLINE Triple<F> along(const Triple<F>& from, const F& t, const Triple<F>& direction) {
+[[gnu::always_inline]] inline Triple<F> along(const Triple<F>& from, const F& t,
+                                              const Triple<F>& direction) {
   return {madd(t, direction.x, from.x), madd(t, direction.y, from.y), madd(t, direction.z, from.z)};
 }
 template <typename F>
-ARCUS_INLINE Triple<F> chosen(const Ints<F>& mask, const Triple<F>& a, const Triple<F>& b) {
+[[gnu::always_inline]] inline Triple<F> chosen(const Ints<F>& mask, const Triple<F>& a,
+                                               const Triple<F>& b) {
   return {mask ? a.x : b.x, mask ? a.y : b.y, mask ? a.z : b.z};
 }
 
@@ -178,8 +178,9 @@ struct Packet {
 /// Turns the axes to the plane of direction and other, but where they are parallel. As CrystalRays'
 /// turn_to_plane_with.
 template <typename F>
-ARCUS_INLINE void turn_to_plane(Light<F>& light, Triple<F>& perpendicular,
-                                const Triple<F>& direction, const Triple<F>& other) {
+[[gnu::always_inline]] inline void turn_to_plane(Light<F>& light, Triple<F>& perpendicular,
+                                                 const Triple<F>& direction,
+                                                 const Triple<F>& other) {
   const Triple<F> next = crossed(direction, other);
   const Ints<F> keep = product(next, next) < 1e-10f;
   const F cosine = product(perpendicular, next), sine = product(perpendicular, other);
@@ -201,7 +202,7 @@ struct UnsignedOf {
 /// A number in [0, 1) that depends on both: C. Wellons' lowbias32 mixes the bits, the upper 24
 /// count.
 template <typename F>
-ARCUS_INLINE F uniform(const F& seed, const Ints<F>& event) {
+[[gnu::always_inline]] inline F uniform(const F& seed, const Ints<F>& event) {
   using Bits = typename UnsignedOf<F>::Type;
   Bits x = reinterpret_cast<Bits>(seed) + reinterpret_cast<Bits>(event) * 0x9e3779b9u;
   x = (x ^ (x >> 16)) * 0x7feb352du;
@@ -221,17 +222,22 @@ struct CrystalKernel {
   using Tables = CrystalTables;
   static constexpr int size = sizeof(F) / sizeof(float);
 
-  ARCUS_INLINE static F load(const float* from) { return *reinterpret_cast<const F*>(from); }
-  ARCUS_INLINE static void store(float* to, const F& value) { *reinterpret_cast<F*>(to) = value; }
+  [[gnu::always_inline]] inline static F load(const float* from) {
+    return *reinterpret_cast<const F*>(from);
+  }
+  [[gnu::always_inline]] inline static void store(float* to, const F& value) {
+    *reinterpret_cast<F*>(to) = value;
+  }
 
-  ARCUS_INLINE static void put(std::int32_t* to, const I& value) {
+  [[gnu::always_inline]] inline static void put(std::int32_t* to, const I& value) {
     std::memcpy(to, &value, sizeof value);
   }
 
   /// The lit faces by their shares of the shadow, then a triangle of the face and a point of it.
-  ARCUS_INLINE static void place_on_surface(const Tables& tables, const CrystalBatch& batch,
-                                            int first, Packet<F>& packet, Triple<F>& normal,
-                                            I& number) {
+  [[gnu::always_inline]] inline static void place_on_surface(const Tables& tables,
+                                                             const CrystalBatch& batch, int first,
+                                                             Packet<F>& packet, Triple<F>& normal,
+                                                             I& number) {
     const Triple<F>& d = packet.incoming;
     F total = {};
     for (const auto& slab : tables.slabs) {
@@ -286,8 +292,10 @@ struct CrystalKernel {
   }
 
   /// Sends the packet into the crystal; returns what is reflected outside.
-  ARCUS_INLINE static Light<F> enter(const Tables& tables, const CrystalBatch& batch, int first,
-                                     Packet<F>& packet, Triple<F>& outside, I& number) {
+  [[gnu::always_inline]] inline static Light<F> enter(const Tables& tables,
+                                                      const CrystalBatch& batch, int first,
+                                                      Packet<F>& packet, Triple<F>& outside,
+                                                      I& number) {
     packet.incoming = {load(batch.row(CrystalBatch::in_x) + first),
                        load(batch.row(CrystalBatch::in_y) + first),
                        load(batch.row(CrystalBatch::in_z) + first)};
@@ -329,7 +337,8 @@ struct CrystalKernel {
   };
 
   /// On to the next face; what leaves there and what goes on, its direction already turned.
-  ARCUS_INLINE static Meeting advance(const Tables& tables, bool absorbs, Packet<F>& packet) {
+  [[gnu::always_inline]] inline static Meeting advance(const Tables& tables, bool absorbs,
+                                                       Packet<F>& packet) {
     const F one = all<F>(1.0f), half = all<F>(0.5f);
     F nearest = all<F>(far), cosine = one;  // their quotient is the distance
     Triple<F> normal{F{}, F{}, one};
@@ -393,16 +402,17 @@ struct CrystalKernel {
     return meeting;
   }
 
-  ARCUS_INLINE static void write(const CrystalBatch& batch, int event, int first,
-                                 const Triple<F>& direction, const Light<F>& light,
-                                 const I& number) {
+  [[gnu::always_inline]] inline static void write(const CrystalBatch& batch, int event, int first,
+                                                  const Triple<F>& direction, const Light<F>& light,
+                                                  const I& number) {
     const F rows[] = {direction.x, direction.y, direction.z, light.i,
                       light.q,     light.u,     light.v,     reinterpret_cast<F>(number)};
     for (int k = 0; k < CrystalBatch::exit_rows; ++k)
       store(batch.exit_row(event, k) + first, rows[k]);
   }
 
-  ARCUS_INLINE static void split(const Tables& tables, const CrystalBatch& batch, bool absorbs) {
+  [[gnu::always_inline]] inline static void split(const Tables& tables, const CrystalBatch& batch,
+                                                  bool absorbs) {
     for (int first = 0; first < batch.padded_; first += size) {
       Packet<F> packet;
       Triple<F> outside;
@@ -424,7 +434,8 @@ struct CrystalKernel {
 
   // ---- drawing ----------------------------------------------------------------------------------
 
-  ARCUS_INLINE static void save(float* to, std::ptrdiff_t stride, const Packet<F>& p) {
+  [[gnu::always_inline]] inline static void save(float* to, std::ptrdiff_t stride,
+                                                 const Packet<F>& p) {
     const F rows[] = {p.place.x,
                       p.place.y,
                       p.place.z,
@@ -446,7 +457,8 @@ struct CrystalKernel {
     static_assert(sizeof rows == CrystalBatch::state_rows * sizeof(F));
     for (int k = 0; k < CrystalBatch::state_rows; ++k) store(to + k * stride, rows[k]);
   }
-  ARCUS_INLINE static Packet<F> restored(const float* from, std::ptrdiff_t stride) {
+  [[gnu::always_inline]] inline static Packet<F> restored(const float* from,
+                                                          std::ptrdiff_t stride) {
     F r[CrystalBatch::state_rows];
     for (int k = 0; k < CrystalBatch::state_rows; ++k) r[k] = load(from + k * stride);
     return {{r[0], r[1], r[2]},
@@ -457,14 +469,14 @@ struct CrystalKernel {
             r[16],
             r[17]};
   }
-  ARCUS_INLINE static Light<F> scaled(const Light<F>& light, const F& factor) {
+  [[gnu::always_inline]] inline static Light<F> scaled(const Light<F>& light, const F& factor) {
     return {light.i * factor, light.q * factor, light.u * factor, light.v * factor};
   }
 
   /// First all rays enter, and some are reflected outside. The others wait until a lane is free:
   /// lanes whose ray has left take the next one, so that all of them stay busy.
-  ARCUS_INLINE static void draw(const Tables& tables, CrystalBatch& batch, bool absorbs,
-                                int events) {
+  [[gnu::always_inline]] inline static void draw(const Tables& tables, CrystalBatch& batch,
+                                                 bool absorbs, int events) {
     const F one = all<F>(1.0f);
     const std::ptrdiff_t stride = batch.padded_;
     for (int first = 0; first < batch.padded_; first += size) {

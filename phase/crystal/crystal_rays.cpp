@@ -48,17 +48,6 @@ CrystalRays::CrystalRays(const CrystalShape& shape, double n, double absorption_
     throw bad_input("refractive index of a crystal", number_text(n), "must be above 1");
   if (!(absorption_ >= 0) || !std::isfinite(absorption_))
     throw bad_input("absorption of a crystal", number_text(absorption_), "must be at least 0");
-  for (const CrystalFace& face : shape.faces()) {
-    std::vector<double> shares;
-    double sum = 0;
-    for (std::size_t i = 1; i + 1 < face.corners.size(); ++i) {
-      sum += 0.5 * length(cross(face.corners[i] - face.corners[0],
-                                face.corners[i + 1] - face.corners[0]));
-      shares.push_back(sum / face.area);
-    }
-    shares.back() = 1;
-    fans_.push_back(std::move(shares));
-  }
 }
 
 CrystalEntry CrystalRays::entry(const Vec3& incoming, double u_face, double u1, double u2) const {
@@ -74,14 +63,18 @@ CrystalEntry CrystalRays::entry(const Vec3& incoming, double u_face, double u1, 
     left -= lit;
   }
   assert(chosen < faces.size());
-  const auto& fan = fans_[chosen];
-  const auto triangle = static_cast<std::size_t>(
-      std::min(std::upper_bound(fan.begin(), fan.end(), share), fan.end() - 1) - fan.begin());
+  // The face as a fan of triangles around its first corner.
+  const auto& corners = faces[chosen].corners;
+  std::size_t triangle = 0;
+  for (double area = share * faces[chosen].area; triangle + 3 < corners.size(); ++triangle) {
+    area -=
+        0.5 * length(cross(corners[triangle + 1] - corners[0], corners[triangle + 2] - corners[0]));
+    if (area < 0) break;
+  }
   if (u1 + u2 > 1) {  // fold the square onto the triangle
     u1 = 1 - u1;
     u2 = 1 - u2;
   }
-  const auto& corners = faces[chosen].corners;
   return {chosen, corners[0] + (corners[triangle + 1] - corners[0]) * u1 +
                       (corners[triangle + 2] - corners[0]) * u2};
 }

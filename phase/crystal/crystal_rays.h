@@ -72,7 +72,6 @@ class CrystalRays {
 
   const CrystalShape& shape_;
   double n_, absorption_;
-  std::vector<std::vector<double>> fans_;  ///< for each face the shares of its triangles, summed up
 };
 
 }  // namespace arcus::phase

@@ -3,21 +3,23 @@
 #include <cmath>
 
 #include "phase/base/error.h"
+#include "phase/base/turn.h"
 #include "phase/base/units.h"
 #include "phase/settings/number_text.h"
 
 namespace arcus::phase {
 namespace {
 
-/// An angle by its cosine and sine.
-struct Angle {
-  double cosine = 1, sine = 0;
-};
-Angle angle_of(double rad) { return {std::cos(rad), std::sin(rad)}; }
+using Angle = SineCosine;
+
+Angle angle_of(double rad) {
+  const double turns = rad * (0.5 / pi);
+  return sine_and_cosine_of_turn(turns - std::floor(turns));
+}
 
 /// Uniform in [0, 1), 32 bits: one number of the stream where a double takes two.
 double any(Random& random) { return random.bits() * 0x1p-32; }
-Angle any_angle(Random& random) { return angle_of(2 * pi * any(random)); }
+Angle any_angle(Random& random) { return sine_and_cosine_of_turn(any(random)); }
 
 /// `from` turned by the angle towards `to`, both unit and at right angles.
 Vec3 between_axes(const Vec3& from, const Vec3& to, const Angle& angle) {
@@ -84,7 +86,7 @@ double Orientations::angle_rad(double width_rad, Random& random) const {
   const double u = any(random);
   if (!gaussian_) return width_rad * (2 * u - 1);
   // Box and Muller; 1 - u is never 0.
-  return width_rad * std::sqrt(-2 * std::log(1 - u)) * std::cos(2 * pi * any(random));
+  return width_rad * std::sqrt(-2 * std::log(1 - u)) * any_angle(random).cosine;
 }
 
 Orientation Orientations::draw(Random& random) const {

@@ -148,11 +148,11 @@ TEST(Halos, ParheliaStandAtTheSunsHeightAndTheirDistance) {
     for (const double nm : {650.0, 450.0}) {
       double nearest = 180;
       follow({.aspect_ratio = 2}, {.type = "plate", .tilt_deg = 0}, ice(nm) * air_index(nm),
-             parhelion.elevation, "3-5", 200'000, [&](const Vec3& travels, const Stokes& light) {
+             parhelion.elevation, "3-5", 100'000, [&](const Vec3& travels, const Stokes& light) {
                EXPECT_NEAR(elevation_deg(travels), -parhelion.elevation, 1e-9);
                if (light.i > 1e-3) nearest = std::min(nearest, azimuth_from_sun_deg(travels));
              });
-      EXPECT_NEAR(nearest, nm == 650 ? parhelion.at_650 : parhelion.at_450, 0.007)
+      EXPECT_NEAR(nearest, nm == 650 ? parhelion.at_650 : parhelion.at_450, 0.01)
           << parhelion.elevation;
     }
 }

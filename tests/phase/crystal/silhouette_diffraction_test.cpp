@@ -44,7 +44,7 @@ TEST(SilhouetteDiffraction, DrawsFollowItsValue) {
   const statistics::IntervalCells cells(density, 0, 1, 50, {0.005, 0.02, 0.05, 0.1, 0.2});
   const statistics::IntervalCells tilted(
       [&](double root) {
-        return density(root) * (root < 0.01 ? 1.02 : 1) / (1 + 0.02 * lobe.share_within(1e-4));
+        return density(root) * (root < 0.01 ? 1.05 : 1) / (1 + 0.05 * lobe.share_within(1e-4));
       },
       0, 1, 50, {0.005, 0.01, 0.02, 0.05, 0.1, 0.2});
   statistics::Tally tally(cells), off(tilted);
