@@ -125,6 +125,45 @@ TEST(CrystalPackets, LoseNoPower) {
     }
 }
 
+// Needles, films, slivers, faces that nearly vanish, tips and cut tips.
+TEST(CrystalPackets, LoseNoPowerWhateverTheHabit) {
+  Random random(test_seed(), 0, 0);
+  CrystalBatch batch(64, 10);
+  for (int round = 0; round < 1000; ++round) {
+    HabitSettings habit;
+    habit.aspect_ratio = std::pow(10, -5 + 10 * random.uniform_double());
+    for (double& distance : habit.side_distances) {
+      const double kind = random.uniform_double();
+      distance = kind < 0.1   ? 1000 * random.uniform_double() + 0.001
+                 : kind < 0.4 ? 1
+                              : 0.05 + 4 * random.uniform_double();
+    }
+    for (PyramidSettings* pyramid : {&habit.upper, &habit.lower}) {
+      const double kind = random.uniform_double();
+      pyramid->height = kind < 0.3 ? 0 : kind < 0.5 ? 1 : kind;
+      pyramid->h = 1 + random.bits() % 3;
+      pyramid->l = 1 + random.bits() % 3;
+    }
+    const CrystalShape shape = make_crystal(habit, 100);
+    Vec3 sum(0);
+    for (const CrystalFace& face : shape.faces()) sum += face.normal * face.area;
+    EXPECT_LT(length(sum), 1e-6 * shape.surface()) << habit.aspect_ratio;
+    fill(batch, 0.01, random);
+    const CrystalPackets tracer(shape);
+    tracer.split(batch);
+    for (int ray = 0; ray < batch.rays(); ++ray) {
+      double power = batch.absorbed(ray) + batch.cut_off(ray);
+      for (int event = 0; event <= 10; ++event) power += batch.light(event, ray).i;
+      EXPECT_NEAR(power, 1, 1e-6) << habit.aspect_ratio;
+    }
+    tracer.draw(batch);
+    for (int ray = 0; ray < batch.rays(); ++ray) {
+      EXPECT_GE(batch.light(0, ray).i, 0);
+      EXPECT_LE(batch.light(0, ray).i + batch.cut_off(ray), 1.00001);
+    }
+  }
+}
+
 TEST(CrystalPackets, HaveEqualBitsOnAllProcessors) {
   if (best_instructions() != Instructions::avx512) GTEST_SKIP() << "no AVX-512 here";
   Random random(test_seed(), 0, 0);
