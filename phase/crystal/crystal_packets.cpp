@@ -93,9 +93,10 @@ template <typename F>
 }
 /// a b + c with one rounding.
 template <typename F>
-[[gnu::always_inline]] inline F madd(const F& a, const F& b, F c) {
-  add_product(c, a, b);
-  return c;
+[[gnu::always_inline]] inline F madd(const F& a, const F& b, const F& c) {
+  F sum = c;
+  add_product(sum, a, b);
+  return sum;
 }
 template <typename F>
 [[gnu::always_inline]] inline F root(const F& a) {
@@ -123,8 +124,8 @@ template <typename F>
 /// exp of numbers up to 0, to two units in the last place: powers of two and Taylor's series within
 /// half an octave.
 template <typename F>
-[[gnu::always_inline]] inline F exponential(F x) {
-  x = larger(x, all<F>(-87.0f));
+[[gnu::always_inline]] inline F exponential(const F& exponent) {
+  const F x = larger(exponent, all<F>(-87.0f));
   const F shift =
       all<F>(12582912.0f);  // 1.5 2^23: adding it rounds to a whole number in the last bits
   const F shifted = madd(x, all<F>(1.44269504f), shift);
