@@ -7,7 +7,6 @@
 
 #include "phase/base/frame.h"
 #include "phase/base/turn.h"
-#include "phase/base/units.h"
 #include "phase/base/vec3.h"
 
 namespace arcus::phase {
