@@ -14,7 +14,7 @@ endif()
 
 # ---- what each folder may include, besides itself --------------------------------------------------
 
-set(phase_order base settings optics particle population function species)
+set(phase_order base settings optics particle crystal population function species)
 set(src_words film light camera material shape)                    # they do not know one another
 set(src_order scene photon integrator render analysis)
 

@@ -1,0 +1,87 @@
+#include "phase/crystal/crystal_population.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "phase/base/error.h"
+#include "phase/base/units.h"
+#include "phase/optics/refractive_index.h"
+#include "phase/settings/number_text.h"
+
+namespace arcus::phase {
+namespace {
+
+constexpr int spread_shapes = 32;
+
+/// The number that a standard normal variable stays below with this probability; by halving.
+double normal_quantile(double probability) {
+  double low = -10, high = 10;
+  while (high - low > 1e-12) {
+    const double middle = 0.5 * (low + high);
+    (0.5 * std::erfc(-middle / std::sqrt(2.0)) < probability ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace
+
+void list_keys(Keys& keys, CrystalSettings& crystal) {
+  list_keys(keys, crystal.habit);
+  keys.number("aspect_spread", crystal.aspect_spread, between(0, 2),
+              "standard deviation of the logarithm of the aspect ratio");
+  keys.table("orientation", crystal.orientation, "how the crystals lie");
+}
+
+CrystalPopulation::CrystalPopulation(const CrystalSettings& settings, double maximum_dimension_um)
+    : orientations_(settings.orientation) {
+  const double spread = settings.aspect_spread;
+  if (!(spread >= 0 && spread <= 2))
+    throw bad_input("aspect_spread", number_text(spread), "must be between 0 and 2");
+  const int count = spread > 0 ? spread_shapes : 1;
+  for (int i = 0; i < count; ++i) {
+    HabitSettings habit = settings.habit;
+    if (count > 1) habit.aspect_ratio *= std::exp(spread * normal_quantile((i + 0.5) / count));
+    shapes_.push_back(make_crystal(habit, maximum_dimension_um));
+    // No shadow is larger than half of the surface.
+    largest_shadow_um2_ = std::max(largest_shadow_um2_, 0.5 * shapes_.back().surface());
+  }
+}
+
+double CrystalPopulation::mean_projected_area_um2() const {
+  double sum = 0;
+  for (const CrystalShape& shape : shapes_) sum += shape.mean_projected_area();
+  return sum / static_cast<double>(shapes_.size());
+}
+
+CrystalPopulation::Lying CrystalPopulation::draw_any(Random& random) const {
+  const auto which =
+      static_cast<std::size_t>(random.uniform() * static_cast<float>(shapes_.size()));
+  return {shapes_[which], orientations_.draw(random)};
+}
+
+CrystalPopulation::Lying CrystalPopulation::draw_met(const Vec3& incoming, Random& random) const {
+  while (true) {
+    const Lying lying = draw_any(random);
+    const double shadow = lying.shape.projected_area(lying.orientation.to_crystal(incoming));
+    if (random.uniform_double() * largest_shadow_um2_ < shadow) return lying;
+  }
+}
+
+std::optional<CrystalExit> CrystalPopulation::draw(const Vec3& incoming, double n,
+                                                   double absorption_per_um, Random& random) const {
+  const Lying lying = draw_met(incoming, random);
+  const Vec3 light = lying.orientation.to_crystal(incoming);
+  const CrystalRays tracer(lying.shape, n, absorption_per_um);
+  auto exit = tracer.draw(light, tracer.entry(light, random), random);
+  if (exit) {
+    exit->direction = lying.orientation.to_world(exit->direction);
+    exit->place = lying.orientation.to_world(exit->place);
+  }
+  return exit;
+}
+
+double absorption_per_um(double k, double vacuum_wavelength_nm) {
+  return 4 * pi * k * air_index(vacuum_wavelength_nm) / um_from_nm(vacuum_wavelength_nm);
+}
+
+}  // namespace arcus::phase
