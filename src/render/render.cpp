@@ -63,18 +63,20 @@ RunResult render(const Scene& scene, const RenderSettings& settings, const RunOp
     for (int x = area.x0; x < area.x1; ++x) samples_before += film.next_sample(x, y);
   std::atomic<long long> samples_done{samples_before};
   std::atomic<bool> is_stopped{false}, is_paused{false};
-  double last_checkpoint_s = 0;
+  // However short the limits and slow the machine, a run does something before it stops or saves.
+  std::atomic<bool> did_something{false}, has_news{false};
+  double last_checkpoint_s = seconds_since_begin();
   const auto progress = [&] {
     return Progress{seconds_since_begin(), static_cast<double>(samples_before), static_cast<double>(samples_done.load()),
                     static_cast<double>(settings.samples_per_pixel) * area.width() * area.height()};
   };
   const auto must_stop = [&] {
     if (options.stop_request && options.stop_request->load() != 0) return true;
-    return options.time_limit_s > 0 && seconds_since_begin() >= options.time_limit_s;
+    return options.time_limit_s > 0 && did_something && seconds_since_begin() >= options.time_limit_s;
   };
 
   const auto checkpoint_is_due = [&] {
-    return options.checkpoint && seconds_since_begin() - last_checkpoint_s >= options.checkpoint_s;
+    return options.checkpoint && has_news && seconds_since_begin() - last_checkpoint_s >= options.checkpoint_s;
   };
 
   /// Up to the sample `last`, not included; returns how many.
@@ -126,12 +128,13 @@ RunResult render(const Scene& scene, const RenderSettings& settings, const RunOp
             result.work += work;
           }
           samples_done += samples;
+          if (samples > 0) did_something = has_news = true;
         });
       });
       if (is_paused && !is_stopped) {  // then the same pass again: pixels that have had it are passed over
         options.checkpoint(film);
         last_checkpoint_s = seconds_since_begin();
-        is_paused = false;
+        is_paused = has_news = false;
       } else {
         done += pass;
       }
