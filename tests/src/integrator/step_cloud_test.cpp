@@ -55,7 +55,7 @@ struct Radiances {
 
 /// π I / (μ₀ F₀): light that leaves along `leaving` through the top, or the bottom where it goes down.
 Radiances radiances(const Scene& scene, const Vec3& leaving, double sun_cosine) {
-  const int samples = static_cast<int>(6000 * statistics::test_effort());
+  const int samples = static_cast<int>(24000 * statistics::test_effort());
   const VolumePath integrator(scene, 1000000);
   Radiances result{std::vector<double>(columns), std::vector<double>(columns)};
   tbb::parallel_for(0, columns, [&](int column) {
@@ -91,7 +91,7 @@ void expect_agreement(const std::string& name, const Radiances& found) {
   std::cout << name << ": rms over the columns " << 100 * std::sqrt(squares / columns) << " %, of that noise " << 100 * std::sqrt(noise / columns)
             << " %, without it " << 100 * rms << " %; mean " << 100 * mean << " %\n";
   EXPECT_LT(rms, 0.02) << name;
-  // With enough samples (TEST_EFFORT=16) the deviation itself tells.
+  // With enough samples (TEST_EFFORT=4) the deviation itself tells.
   if (noise / columns < 0.01 * 0.01) {
     EXPECT_LT(squares / columns, 0.02 * 0.02) << name;
   }
