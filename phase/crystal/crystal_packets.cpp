@@ -1,84 +1,13 @@
 #include "phase/crystal/crystal_packets.h"
 
-#include <algorithm>
-#include <bit>
-#include <cassert>
-#include <cmath>
 #include <cstring>
-#include <vector>
+
+#include "phase/crystal/crystal_tables.h"
 
 // Vectors lose "may alias" as arguments of templates; memory is only touched where they have it.
 #pragma GCC diagnostic ignored "-Wignored-attributes"
 
 namespace arcus::phase {
-
-// Opposite faces share their products with the normal: a pair is a slab of two half-spaces,
-// normal.x <= plus and -normal.x <= minus.
-struct CrystalTables {
-  struct Slab {
-    float nx, ny, nz, plus, minus, area_plus, area_minus;
-    std::int32_t number_plus, number_minus;
-  };
-  struct Triangle {
-    float corner[3], first[3], second[3];
-    float share_up_to_here;  // of its face, 1 for the last one
-  };
-  std::vector<Slab> slabs;
-  std::vector<Triangle> triangles;
-  std::vector<int> first_triangle;  // of the plus and the minus face of every slab
-
-  explicit CrystalTables(const CrystalShape& shape);
-
- private:
-  void add_fan(const CrystalFace* face);
-};
-
-namespace {
-
-constexpr float far = 1e30f;  // where a slab has no second face
-
-}  // namespace
-
-void CrystalTables::add_fan(const CrystalFace* face) {
-  first_triangle.push_back(static_cast<int>(triangles.size()));
-  if (face == nullptr) return;
-  const auto& corners = face->corners;
-  double share = 0;
-  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-    const Vec3 first = corners[i] - corners[0], second = corners[i + 1] - corners[0];
-    share += 0.5 * length(cross(first, second)) / face->area;
-    Triangle t;
-    for (int k = 0; k < 3; ++k) {
-      t.corner[k] = static_cast<float>(corners[0][k]);
-      t.first[k] = static_cast<float>(first[k]);
-      t.second[k] = static_cast<float>(second[k]);
-    }
-    t.share_up_to_here = i + 2 == corners.size() ? 1.0f : static_cast<float>(share);
-    triangles.push_back(t);
-  }
-}
-
-CrystalTables::CrystalTables(const CrystalShape& shape) {
-  const auto& faces = shape.faces();
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    const CrystalFace& face = faces[i];
-    const bool paired = i + 1 < faces.size() && are_opposite(face, faces[i + 1]);
-    const CrystalFace* other = paired ? &faces[++i] : nullptr;
-    Slab slab;
-    slab.nx = static_cast<float>(face.normal.x);
-    slab.ny = static_cast<float>(face.normal.y);
-    slab.nz = static_cast<float>(face.normal.z);
-    slab.plus = static_cast<float>(face.distance);
-    slab.area_plus = static_cast<float>(face.area);
-    slab.number_plus = face.number;
-    slab.minus = other ? static_cast<float>(other->distance) : far;
-    slab.area_minus = other ? static_cast<float>(other->area) : 0;
-    slab.number_minus = other ? other->number : 0;
-    slabs.push_back(slab);
-    add_fan(&face);
-    add_fan(other);
-  }
-}
 
 // ---- arithmetic on vectors ----------------------------------------------------------------------
 
@@ -341,7 +270,7 @@ struct CrystalKernel {
   [[gnu::always_inline]] inline static Meeting advance(const Tables& tables, bool absorbs,
                                                        Packet<F>& packet) {
     const F one = all<F>(1.0f), half = all<F>(0.5f);
-    F nearest = all<F>(far), cosine = one;  // their quotient is the distance
+    F nearest = all<F>(no_face), cosine = one;  // their quotient is the distance
     Triple<F> normal{F{}, F{}, one};
     I number = {};
     for (const auto& slab : tables.slabs) {
@@ -569,66 +498,6 @@ void draw_avx2(const CrystalTables& tables, CrystalBatch& batch, bool absorbs, i
 }
 
 }  // namespace
-
-// ---- the batch ----------------------------------------------------------------------------------
-
-CrystalBatch::CrystalBatch(int rays, int events)
-    : rays_(rays),
-      padded_((rays + 15) / 16 * 16),
-      events_(events),
-      memory_(static_cast<std::size_t>(padded_) / 16 *
-              static_cast<std::size_t>(first_exit + exit_rows * (events + 1) + state_rows)),
-      codes_(new std::uint64_t[static_cast<std::size_t>(padded_)]()) {
-  assert(rays > 0 && events >= 0);
-  static_assert(sizeof(double) * lanes == 16 * sizeof(float));
-  std::fill_n(
-      row(0),
-      static_cast<std::size_t>(padded_) * (first_exit + exit_rows * (events + 1) + state_rows),
-      0.0f);
-  // Whatever is not set, the rest of the last vector too, is some ray.
-  for (int ray = 0; ray < padded_; ++ray) set(ray, {0, 0, -1}, 1.31, 0, 0.5f, 0.3f, 0.3f, 0);
-}
-
-void CrystalBatch::set(int ray, const Vec3& incoming, double n, double absorption_per_length,
-                       Random& random) {
-  const float u_face = random.uniform(), u1 = random.uniform(), u2 = random.uniform();
-  set(ray, incoming, n, absorption_per_length, u_face, u1, u2, random.bits());
-}
-
-void CrystalBatch::set(int ray, const Vec3& incoming, double n, double absorption_per_length,
-                       float u_face, float u1, float u2, std::uint32_t bits) {
-  assert(ray >= 0 && ray < padded_ && n > 1 && absorption_per_length >= 0);
-  row(in_x)[ray] = static_cast<float>(incoming.x);
-  row(in_y)[ray] = static_cast<float>(incoming.y);
-  row(in_z)[ray] = static_cast<float>(incoming.z);
-  row(index)[ray] = static_cast<float>(n);
-  row(absorption)[ray] = static_cast<float>(absorption_per_length);
-  row(face_number)[ray] = u_face;
-  row(first_number)[ray] = u1;
-  row(second_number)[ray] = u2;
-  row(random_bits)[ray] = std::bit_cast<float>(bits);
-}
-
-Vec3 CrystalBatch::direction(int event, int ray) const {
-  return {exit_row(event, x)[ray], exit_row(event, y)[ray], exit_row(event, z)[ray]};
-}
-
-Stokes CrystalBatch::light(int event, int ray) const {
-  return {exit_row(event, i)[ray], exit_row(event, q)[ray], exit_row(event, u)[ray],
-          exit_row(event, v)[ray]};
-}
-
-FacePath CrystalBatch::path(int event, int ray) const {
-  if (drawn_) return FacePath(codes_[static_cast<std::size_t>(ray)]);
-  FacePath path;
-  for (int e = 0; e <= event; ++e)
-    path = path.then(std::bit_cast<std::int32_t>(exit_row(e, exit_rows - 1)[ray]));
-  return path;
-}
-
-bool CrystalBatch::absorbs() const {
-  return std::any_of(row(absorption), row(absorption) + padded_, [](float a) { return a > 0; });
-}
 
 // ---- the tracer ---------------------------------------------------------------------------------
 
