@@ -16,7 +16,7 @@ cp "$here/cloud.toml" .
 processor_seconds() { local TIMEFORMAT='%U'; { time "$@" >"$work/log" 2>&1; } 2>&1; }
 
 measure() {  # measure TITLE [OPTIONS...]
-  local title=$1 seed start seconds=0
+  local title=$1 seed start seconds=""
   shift
   "$arcus" render cloud.toml -o warm.exr --spp 1 --no-png --quiet "$@"
   start=$(processor_seconds "$arcus" render cloud.toml -o warm.exr --spp 1 --no-png "$@")  # nearly all of it loading
@@ -27,7 +27,7 @@ measure() {  # measure TITLE [OPTIONS...]
   "$arcus" compare 1.exr 2.exr | awk -v title="$title" -v line="$(tail -n 1 log)" -v seconds="$seconds" -v start="$start" -v spp="$samples" '
     $1 == "G" {
       split(seconds, both, " ")
-      time = ((both[2] + both[3]) / 2 - start) * spp / (spp - 1)
+      time = ((both[1] + both[2]) / 2 - start) * spp / (spp - 1)
       count = split(line, word, " ")
       scatterings = collisions = ns = "-"
       for (i = 2; i <= count; ++i) {
