@@ -504,6 +504,7 @@ void draw_avx2(const CrystalTables& tables, CrystalBatch& batch, bool absorbs, i
 CrystalPackets::CrystalPackets(const CrystalShape& shape, Instructions instructions)
     : tables_(std::make_unique<const CrystalTables>(shape)), instructions_(instructions) {}
 
+CrystalPackets::CrystalPackets(CrystalPackets&&) noexcept = default;
 CrystalPackets::~CrystalPackets() = default;
 
 void CrystalPackets::split(CrystalBatch& batch) const {

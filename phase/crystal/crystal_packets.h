@@ -100,6 +100,7 @@ class CrystalPackets {
   /// `instructions` other than the best are for tests.
   explicit CrystalPackets(const CrystalShape& shape,
                           Instructions instructions = best_instructions());
+  CrystalPackets(CrystalPackets&&) noexcept;
   ~CrystalPackets();
 
   /// Every ray with all its exits. Agrees with CrystalRays::split within the rounding of floats:

@@ -5,6 +5,7 @@
 
 #include "phase/base/error.h"
 #include "phase/base/units.h"
+#include "phase/crystal/silhouette_diffraction.h"
 #include "phase/optics/refractive_index.h"
 #include "phase/settings/number_text.h"
 
@@ -25,7 +26,49 @@ double normal_quantile(double probability) {
 
 }  // namespace
 
+CrystalSettings crystals_of_habit(const std::string& name) {
+  // Ratios as in C. A. Tricker, Ice Crystal Haloes (1979), and W. Tape (1994): thin plates, columns two to three times
+  // as long as wide. Pyramidal crystals that make odd-radius halos tumble.
+  CrystalSettings crystal;
+  crystal.name = name;
+  HabitSettings& habit = crystal.habit;
+  OrientationSettings& lies = crystal.orientation;
+  const PyramidSettings whole{.height = 1}, cut{.height = 0.7};
+  if (name == "plate") {
+    habit.aspect_ratio = 0.1;
+    lies.type = "plate";
+  } else if (name == "column") {
+    habit.aspect_ratio = 2.5;
+    lies.type = "column";
+  } else if (name == "needle") {
+    habit.aspect_ratio = 10;
+    lies.type = "column";
+  } else if (name == "prism") {
+    habit.aspect_ratio = 1;
+    lies.type = "random";
+  } else if (name == "pyramid") {
+    habit.aspect_ratio = 0.5;
+    habit.upper = habit.lower = cut;
+    lies.type = "random";
+  } else if (name == "bullet") {
+    habit.aspect_ratio = 2;
+    habit.upper = whole;
+    lies.type = "column";
+  } else if (name == "triangle") {
+    habit.aspect_ratio = 0.1;
+    habit.side_distances = {1, 2, 1, 2, 1, 2};
+    lies.type = "plate";
+  } else {
+    throw bad_input("habit", "'" + name + "'", "must be plate, column, needle, prism, pyramid, bullet or triangle");
+  }
+  return crystal;
+}
+
 void list_keys(Keys& keys, CrystalSettings& crystal) {
+  const std::string before = crystal.name;
+  keys.choice("habit", crystal.name, {"plate", "column", "needle", "prism", "pyramid", "bullet", "triangle"},
+              "shape, and how the crystals lie: the defaults of the keys that follow");
+  if (crystal.name != before) crystal = crystals_of_habit(crystal.name);
   list_keys(keys, crystal.habit);
   keys.number("aspect_spread", crystal.aspect_spread, between(0, 2),
               "standard deviation of the logarithm of the aspect ratio");
@@ -78,6 +121,10 @@ std::optional<CrystalExit> CrystalPopulation::draw(const Vec3& incoming, double 
     exit->place = lying.orientation.to_world(exit->place);
   }
   return exit;
+}
+
+bool is_diffraction_narrow(const CrystalPopulation& crystals) {
+  return SilhouetteDiffraction(crystals.mean_projected_area_um2(), 550).width_rad() < radians(0.36);
 }
 
 double absorption_per_um(double k, double vacuum_wavelength_nm) {

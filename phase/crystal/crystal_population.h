@@ -2,6 +2,7 @@
 // Crystals of one habit that fall through the air: their shapes, how they lie, and where one of
 // them sends light.
 
+#include <string>
 #include <vector>
 
 #include "phase/base/random.h"
@@ -13,12 +14,17 @@
 namespace arcus::phase {
 
 struct CrystalSettings {
+  std::string name = "plate";  ///< of the habit, which decides the defaults of all that follows
   HabitSettings habit;
   double aspect_spread =
       0;  ///< standard deviation of the logarithm of the aspect ratio (log-normal)
   OrientationSettings orientation;
 };
 void list_keys(Keys&, CrystalSettings&);
+
+/// The crystals that a habit's name stands for; shapes and orientations as they are mostly found in the air. plate |
+/// column | needle | prism | pyramid | bullet | triangle. Throws bad_input for other names.
+CrystalSettings crystals_of_habit(const std::string& name);
 
 class CrystalPopulation {
  public:
@@ -58,6 +64,10 @@ class CrystalPopulation {
   Orientations orientations_;
   double largest_shadow_um2_ = 0;
 };
+
+/// Whether light of 550 nm that is diffracted by such crystals stays within two thirds of the sun's disc, so that it can count as
+/// not stopped at all: maximum dimensions of about 100 um and more.
+bool is_diffraction_narrow(const CrystalPopulation& crystals);
 
 /// Absorption of power along a path, 4 pi k / wavelength [1/um], for an imaginary index k relative
 /// to the surroundings.

@@ -13,7 +13,7 @@ namespace {
 /// Raised whenever a table of an unchanged recipe comes out different, so that older ones in a cache are not used.
 constexpr int computation_version = 2;
 
-const std::vector<std::string> types{"hg", "isotropic", "rayleigh", "table", "mie", "rain"};
+const std::vector<std::string> types{"hg", "isotropic", "rayleigh", "table", "mie", "rain", "crystal"};
 
 std::vector<double> spaced(double low, double high, int count, Spacing spacing) {
   std::vector<double> nodes;
@@ -27,6 +27,15 @@ std::vector<double> spaced(double low, double high, int count, Spacing spacing) 
 
 void set_defaults_of_type(Recipe& recipe) {
   recipe.distribution = SizesSettings{};
+  recipe.material = "water";
+  if (recipe.is_crystal()) {
+    recipe.material = "ice";
+    recipe.crystal = crystals_of_habit("plate");
+    recipe.size_um = {200};
+    // The 22 degree halo's edge moves by less than 0.05 degrees from one to the next.
+    recipe.wavelength_nm = spaced(380, 780, 21, Spacing::linear);
+    return;
+  }
   if (recipe.type == "rain") {
     recipe.distribution.type = "marshall_palmer";
     // 0.015 to 110 mm/h; a bow changes slowly with the size of drops so broadly distributed.
@@ -40,9 +49,36 @@ void set_defaults_of_type(Recipe& recipe) {
   recipe.wavelength_nm = spaced(380, 780, 41, Spacing::linear);
 }
 
-void list_sphere_keys(Keys& keys, Recipe& recipe) {
+void list_material(Keys& keys, Recipe& recipe) {
   keys.word_or_table("material", recipe.material, recipe.index,
                      "water, ice, a file of wavelength in nm, n and k, or { n, k } relative to the surroundings");
+}
+
+void list_crystal_keys(Keys& keys, Recipe& recipe) {
+  list_material(keys, recipe);
+  list_keys(keys, recipe.crystal);
+  keys.nodes("size_um", recipe.size_um, {.low = 1, .high = 10000}, Spacing::logarithmic,
+             "size nodes: mean maximum dimension of a crystal");
+  keys.number("size_spread", recipe.size_spread, between(0, 1),
+              "standard deviation of the logarithm of the sizes around a node");
+  keys.nodes("wavelength_nm", recipe.wavelength_nm, between(200, 2000), Spacing::linear, "vacuum wavelengths");
+  keys.choice("optics", recipe.optics, {"wave", "geometric"},
+              "wave: rays, and the diffraction of the crystal's shadow, which also blurs them; geometric: rays only, "
+              "extinction efficiency 1");
+  keys.choice("forward_lobe", recipe.forward_lobe, {"remove", "scatter"},
+              "remove: what passes through parallel faces, and where crystals are so large that their diffraction is "
+              "narrower than the sun that too, counts as light that goes straight on; scatter: keep it");
+  keys.number("rays_million", recipe.rays_million, above_up_to(0, 1e5),
+              "rays traced at each wavelength for a table or a map, in millions; more of them leave less noise and finer detail");
+  if (keys.only_if(recipe.is_oriented(), "oriented crystals")) {
+    keys.number("map_step_deg", recipe.map_step_deg, between(0.02, 5), "between the nodes of the map of the sky");
+    keys.number("map_noise", recipe.map_noise, above_up_to(0, 1),
+                "relative standard error of the map: where rays are too few for it, it is smoothed, but never across an edge that they show");
+  }
+}
+
+void list_sphere_keys(Keys& keys, Recipe& recipe) {
+  list_material(keys, recipe);
   keys.table("distribution", recipe.distribution, "how the radii of a size node are distributed");
   keys.nodes("size_um", recipe.size_um, {.low = 0.001, .high = 5000}, Spacing::logarithmic,
              "size nodes: effective radii; one radius for a monodisperse distribution");
@@ -76,6 +112,7 @@ void list_keys(Keys& keys, Recipe& recipe) {
     if (recipe.file.empty() && !keys.documents()) keys.refuse("file", "nothing", "the name of a file expected");
   }
   if (keys.only_if(recipe.is_sphere(), "type = mie or rain")) list_sphere_keys(keys, recipe);
+  if (keys.only_if(recipe.is_crystal(), "type = crystal")) list_crystal_keys(keys, recipe);
 }
 
 Recipe default_recipe(std::string_view type) {
@@ -113,7 +150,7 @@ std::string recipe_id(const Recipe& recipe) {
   if (recipe.type == "table") {
     extra += read_text_file(recipe.file);
     plain.file = "content";
-  } else if (recipe.is_sphere()) {
+  } else if (recipe.is_sphere() || recipe.is_crystal()) {
     const RefractiveIndex index = refractive_index_of(recipe);
     for (const double nm : recipe.wavelength_nm) {
       const auto m = index.relative_to_air(nm);

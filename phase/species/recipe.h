@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "phase/crystal/crystal_population.h"
 #include "phase/optics/refractive_index.h"
 #include "phase/population/sizes.h"
 #include "phase/settings/keys.h"
@@ -14,24 +15,37 @@ namespace arcus::phase {
 
 /// Which keys count depends on the type; a change of type while reading brings that type's defaults.
 struct Recipe {
-  std::string type = "mie";  ///< hg | isotropic | rayleigh | table | mie | rain
+  std::string type = "mie";  ///< hg | isotropic | rayleigh | table | mie | rain | crystal
 
   double g = 0.85;                 ///< hg: mean cosine
   double depolarisation = 0.0279;  ///< rayleigh: of natural light scattered at 90°
   std::string file;                ///< table: see read_table_file
 
-  // mie and rain
+  // mie, rain and crystal
   std::string material = "water";  ///< water | ice | a file; empty: `index` holds
   ConstantIndexSettings index;
-  std::vector<double> size_um;  ///< size nodes: effective radii (empty in a new Recipe: the defaults of its type)
-  SizesSettings distribution;
+  /// Size nodes: effective radii, of crystals mean maximum dimensions (empty in a new Recipe: the defaults of its type).
+  std::vector<double> size_um;
   std::vector<double> wavelength_nm;   ///< wavelength nodes, vacuum (empty: the default)
   std::string optics = "wave";         ///< wave | geometric
   std::string forward_lobe = "remove"; ///< remove | scatter
-  long long radii = 30000;             ///< spheres that stand for the whole population, shared by all size nodes
+
+  // mie and rain
+  SizesSettings distribution;
+  long long radii = 30000;  ///< spheres that stand for the whole population, shared by all size nodes
+
+  // crystal
+  CrystalSettings crystal;
+  double size_spread = 0;     ///< standard deviation of the logarithm of the sizes around a node (log-normal)
+  double rays_million = 16;   ///< traced at each wavelength for a table or a map, in millions
+  double map_step_deg = 0.1;  ///< oriented: between the nodes of the map of the sky
+  double map_noise = 0.03;    ///< oriented: relative standard error of the map, up to which it is smoothed
 
   /// mie or rain: the kinds whose table this library computes.
   bool is_sphere() const { return type == "mie" || type == "rain"; }
+  bool is_crystal() const { return type == "crystal"; }
+  /// Crystals whose scattering depends on where the light comes from, and not on the angle alone.
+  bool is_oriented() const { return is_crystal() && crystal.orientation.type != "random"; }
 };
 void list_keys(Keys&, Recipe&);
 

@@ -50,6 +50,16 @@ TEST(Recipe, ATypeBringsItsDefaultsWhereTheTextIsSilent) {
   EXPECT_EQ(sorted.size_um, std::vector<double>{500});
 }
 
+TEST(Recipe, AHabitBringsHowCrystalsAreShapedAndLie) {
+  const Recipe column = recipe_from_text("type = 'crystal'\nhabit = 'column'\norientation = { tilt_deg = 3 }", "recipe.toml");
+  EXPECT_EQ(column.material, "ice");
+  EXPECT_EQ(column.crystal.habit.aspect_ratio, 2.5);
+  EXPECT_EQ(column.crystal.orientation.type, "column");
+  EXPECT_EQ(column.crystal.orientation.tilt_deg, 3);
+  EXPECT_TRUE(column.is_oriented());
+  EXPECT_FALSE(recipe_from_text("type = 'crystal'\nhabit = 'prism'", "recipe.toml").is_oriented());
+}
+
 TEST(Recipe, ARainRateDecidesTheSize) {
   const Recipe recipe = recipe_from_text("type = 'rain'\ndistribution = { rain_mm_per_hour = 10 }", "recipe.toml");
   ASSERT_EQ(recipe.size_um.size(), 1u);
@@ -67,7 +77,9 @@ TEST(Recipe, CanonicalTextReadsBackTheSameForEveryType) {
   for (const char* text : {"", "type = 'rain'", "type = 'hg'\ng = -0.3", "type = 'isotropic'", "type = 'rayleigh'",
                            "type = 'table'\nfile = 'c1.txt'", "material = { n = 1.5, k = 0.01 }",
                            "type = 'rain'\ndistribution = { rain_mm_per_hour = 5 }\nforward_lobe = 'scatter'",
-                           "distribution = { type = 'lognormal', variance = 0.2 }\noptics = 'geometric'"}) {
+                           "distribution = { type = 'lognormal', variance = 0.2 }\noptics = 'geometric'", "type = 'crystal'",
+                           "type = 'crystal'\nhabit = 'triangle'\naspect_spread = 0.2\norientation = { tilt_deg = 3 }",
+                           "type = 'crystal'\nhabit = 'pyramid'\nlower_pyramid = { height = 0 }\nsize_um = [30, 100]"}) {
     const std::string canonical = text_of(recipe_from_text(text, "recipe.toml"));
     EXPECT_EQ(text_of(recipe_from_text(canonical, "canonical")), canonical) << text;
   }
@@ -76,7 +88,7 @@ TEST(Recipe, CanonicalTextReadsBackTheSameForEveryType) {
 TEST(Recipe, MistakesAreNamedWithTheirPlace) {
   EXPECT_TRUE(contains(refusal("type = 'mei'"), "recipe.toml:1:8: type")) << refusal("type = 'mei'");
   EXPECT_TRUE(contains(refusal("type = 'mei'"), "Did you mean 'mie'"));
-  EXPECT_TRUE(contains(refusal("type = 'crystal'"), "isotropic, rayleigh, table, mie or rain"));
+  EXPECT_TRUE(contains(refusal("type = 'crystals'"), "isotropic, rayleigh, table, mie, rain or crystal"));
   EXPECT_TRUE(contains(refusal("\nsize_um = [-5, 10]"), "recipe.toml:2:12: size_um: -5 found"));
   EXPECT_TRUE(contains(refusal("size_mm = 5"), "Did you mean 'size_um'"));
   EXPECT_TRUE(contains(refusal("type = 'hg'\ng = 1"), "g: 1 found; must be above -1 and below 1"));
