@@ -61,7 +61,7 @@ Medium::Medium(std::vector<Component> components) : components_(std::move(compon
 Medium::~Medium() = default;
 
 Spectrum Medium::extinction_per_m(const Vec3& position_m, const Wavelengths& wavelengths) const {
-  const RatioTable::Columns columns = RatioTable::columns(wavelengths);
+  const RatioTable::Columns columns = RatioTable::mean_columns(wavelengths);
   Spectrum total;
   for (const Lookup& lookup : lookups_)
     total += lookup.interpolated(lookup.index_from_world.point(position_m), columns);

@@ -51,7 +51,7 @@ class Medium {
   /// The components made ready for tracking, in the same order.
   const std::vector<Lookup>& lookups() const { return lookups_; }
 
-  /// Extinction at a point, interpolated in full: slow, for quadrature and for looking at what is there [1/m].
+  /// Extinction at a point, mean over all directions, interpolated in full: slow, for looking at what is there [1/m].
   Spectrum extinction_per_m(const Vec3& position_m, const Wavelengths&) const;
 
   /// Albedo and phase function of the component drawn at a collision; u in [0, 1) chooses between size nodes.

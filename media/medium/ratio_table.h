@@ -1,9 +1,10 @@
 #pragma once
-// How extinction at a wavelength compares with that at 550 nm, by size: a species' answer, tabulated so that a lookup
-// costs a nanosecond.
+// How extinction at a wavelength compares with that at 550 nm, by size and by how steeply the light goes: a species' answer,
+// tabulated so that a lookup costs a nanosecond.
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -18,10 +19,12 @@ namespace arcus::media {
 
 class RatioTable {
  public:
-  /// Where a path's wavelengths lie in the table.
+  /// Where a path's wavelengths and its direction lie in the table.
   struct Columns {
     int first[wavelength_count];
     Spectrum share;  ///< of the next column
+    int direction;          ///< the node below
+    float direction_share;  ///< of the one above
   };
 
   /// The same for all sizes and wavelengths.
@@ -29,8 +32,19 @@ class RatioTable {
   /// For sizes from smallest_um to largest_um (beyond: as at the ends); equal ones make a table of one row.
   RatioTable(const phase::Species& species, float smallest_um, float largest_um);
 
-  static Columns columns(const Wavelengths& wavelengths) {
+  /// For light whose direction has this sine of elevation.
+  static Columns columns(const Wavelengths& wavelengths, double sine_elevation) {
+    Columns result = mean_columns(wavelengths);
+    const float at = std::min(static_cast<float>(std::fabs(sine_elevation)), 1.f) * (direction_nodes - 1);
+    result.direction = std::min(static_cast<int>(at), direction_nodes - 2);
+    result.direction_share = at - static_cast<float>(result.direction);
+    return result;
+  }
+  /// For the mean over all directions.
+  static Columns mean_columns(const Wavelengths& wavelengths) {
     Columns result;
+    result.direction = direction_nodes;
+    result.direction_share = 0;
     for (int i = 0; i < wavelength_count; ++i) {
       const float at = std::clamp((wavelengths[i] - static_cast<float>(shortest_wavelength_nm)) / column_nm, 0.f,
                                   static_cast<float>(column_count - 1));
@@ -49,13 +63,10 @@ class RatioTable {
   }
   /// The ratios of one row at the columns' wavelengths.
   Spectrum row(int r, const Columns& columns) const {
-    const float* values = values_.data() + static_cast<std::size_t>(r) * (column_count + 1);
-    Spectrum low, high;
-    for (int i = 0; i < wavelength_count; ++i) {
-      low[i] = values[columns.first[i]];
-      high[i] = values[columns.first[i] + 1];
-    }
-    return low + (high - low) * columns.share;
+    if (!is_directed_) return row_of_block(0, r, columns);
+    const Spectrum low = row_of_block(columns.direction, r, columns);
+    if (columns.direction_share == 0) return low;
+    return low + (row_of_block(columns.direction + 1, r, columns) - low) * columns.direction_share;
   }
   /// The ratios at a size.
   Spectrum at(float size_um, const Columns& columns) const {
@@ -71,14 +82,26 @@ class RatioTable {
   std::size_t memory_bytes() const { return values_.size() * sizeof(float); }
 
  private:
+  Spectrum row_of_block(int block, int r, const Columns& columns) const {
+    const float* values = values_.data() + static_cast<std::size_t>(block * row_count_ + r) * (column_count + 1);
+    Spectrum low, high;
+    for (int i = 0; i < wavelength_count; ++i) {
+      low[i] = values[columns.first[i]];
+      high[i] = values[columns.first[i] + 1];
+    }
+    return low + (high - low) * columns.share;
+  }
   // λ⁻⁴ between columns 2 nm apart is wrong by less than 1e-4.
   static constexpr float column_nm = 2;
   static constexpr int column_count = static_cast<int>((longest_wavelength_nm - shortest_wavelength_nm) / column_nm) + 1;
 
+  static constexpr int direction_nodes = 65;  // of sines from 0 to 1; after them the mean over directions
+
   int row_count_ = 1;
+  bool is_directed_ = false;
   std::int32_t first_bits_ = 0;
   float rows_per_bit_ = 0, last_row_ = 0;
-  std::vector<float> values_;  // [row][column], the last column twice
+  std::vector<float> values_;  // [direction][row][column], the last column twice
 };
 
 }  // namespace arcus::media

@@ -15,7 +15,7 @@ class ExtinctionProbe {
  public:
   /// The medium must outlive it.
   ExtinctionProbe(const Medium& medium, const Ray& ray, const Wavelengths& wavelengths)
-      : lookups_(medium.lookups().data()), count_(medium.lookups().size()), ray_(ray), columns_(RatioTable::columns(wavelengths)) {
+      : lookups_(medium.lookups().data()), count_(medium.lookups().size()), ray_(ray), columns_(RatioTable::columns(wavelengths, ray.direction.z)) {
     for (std::size_t k = 0; k < std::min(prepared, count_); ++k) {
       const Lookup& lookup = lookups_[k];
       views_[k].origin = lookup.index_from_world.point(ray.origin_m);

@@ -54,7 +54,7 @@ void add(Depth& depth, const Lookup& lookup, const Ray& ray, const RatioTable::C
 
 Depth depth_of(const Medium& medium, const Ray& ray, const Wavelengths& wavelengths) {
   Depth depth{};
-  const RatioTable::Columns columns = RatioTable::columns(wavelengths);
+  const RatioTable::Columns columns = RatioTable::columns(wavelengths, ray.direction.z);
   for (const Lookup& lookup : medium.lookups()) add(depth, lookup, ray, columns);
   return depth;
 }

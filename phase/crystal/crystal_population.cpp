@@ -123,6 +123,14 @@ std::optional<CrystalExit> CrystalPopulation::draw(const Vec3& incoming, double 
   return exit;
 }
 
+double crystal_size_factor(double size_spread, Random& random) {
+  if (size_spread == 0) return 1;
+  const double u = random.uniform_double(), v = random.uniform_double();
+  const double normal = std::sqrt(-2 * std::log(1 - u)) * std::cos(2 * pi * v);
+  // exp(m + s z) has the mean 1 for m = -s^2 / 2; weights of size^2 shift z by 2 s.
+  return std::exp(size_spread * (normal + 1.5 * size_spread));
+}
+
 bool is_diffraction_narrow(const CrystalPopulation& crystals) {
   return SilhouetteDiffraction(crystals.mean_projected_area_um2(), 550).width_rad() < radians(0.36);
 }

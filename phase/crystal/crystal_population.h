@@ -65,6 +65,10 @@ class CrystalPopulation {
   double largest_shadow_um2_ = 0;
 };
 
+/// Size over the mean size of a crystal that light meets, where the sizes' logarithms have this standard deviation: crystals count
+/// by their shadows. 1 where the spread is 0; takes numbers only where it is not.
+double crystal_size_factor(double size_spread, Random& random);
+
 /// Whether light of 550 nm that is diffracted by such crystals stays within two thirds of the sun's disc, so that it can count as
 /// not stopped at all: maximum dimensions of about 100 um and more.
 bool is_diffraction_narrow(const CrystalPopulation& crystals);

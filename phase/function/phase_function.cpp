@@ -2,6 +2,7 @@
 
 #include <cassert>
 
+#include "phase/function/oriented_crystals.h"
 #include "phase/function/sphere_table.h"
 
 namespace arcus::phase {
@@ -25,6 +26,7 @@ inline auto choose(const Kinds& kind, WithAnalytic with_analytic, WithLobe with_
 }  // namespace
 
 Spectrum PhaseFunction::value(const Vec3& incoming, const Vec3& outgoing, const Wavelengths& wavelengths) const {
+  assert(!std::holds_alternative<OrientedLobe>(kind_));
   const HalfAngle angle = half_angle_between(incoming, outgoing);
   return choose(
       kind_, [&](const auto& analytic) { return grey_value(analytic, angle); },
@@ -33,17 +35,22 @@ Spectrum PhaseFunction::value(const Vec3& incoming, const Vec3& outgoing, const 
 
 bool PhaseFunction::includes_sun_disc() const {
   const auto* lobe = std::get_if<SphereLobe>(&kind_);
-  return lobe && lobe->table->includes_sun_disc();
+  return lobe ? lobe->table->includes_sun_disc() : std::holds_alternative<OrientedLobe>(kind_);
 }
 
-Spectrum PhaseFunction::sunlit_value(const Vec3& from_centre, const Vec3& outgoing,
-                                     const Wavelengths& wavelengths) const {
+Spectrum PhaseFunction::sunlit_value(const Vec3& incoming, const Vec3& to_centre, const Wavelengths& wavelengths) const {
   assert(includes_sun_disc());
+  if (const auto* oriented = std::get_if<OrientedLobe>(&kind_))
+    return oriented->crystals->sunlit_value_per_sr(oriented->size, incoming, to_centre, wavelengths);
   const auto* lobe = std::get_if<SphereLobe>(&kind_);
-  return lobe->table->sunlit_value_per_sr(lobe->size, half_angle_between(from_centre, outgoing), wavelengths);
+  return lobe->table->sunlit_value_per_sr(lobe->size, half_angle_between(incoming, to_centre), wavelengths);
 }
 
 Draw PhaseFunction::draw(const Vec3& incoming, const Wavelengths& wavelengths, Random& random) const {
+  if (const auto* oriented = std::get_if<OrientedLobe>(&kind_)) {
+    const auto ray = oriented->crystals->draw(oriented->size, incoming, wavelengths[0], random);
+    return {ray.outgoing, {ray.albedo, 0, 0, 0}, {1, 0, 0, 0}};
+  }
   const auto drawn = choose(
       kind_,
       [&](const auto& analytic) {

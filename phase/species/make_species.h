@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -14,6 +15,8 @@ namespace arcus::phase {
 struct SpeciesOptions {
   /// Radius of the sun's disc that phase functions are averaged over beside their own values [rad]; 0: they are not.
   double sun_angular_radius_rad = 0;
+  /// How high the sun stands [deg]: oriented crystals get a map of the sky for it, and without it none.
+  std::optional<double> sun_elevation_deg;
   /// Where computed tables are kept; empty: nowhere. default_cache_folder() is where users expect them.
   std::string cache_folder;
   /// Gets warnings, and what takes long; may be empty.

@@ -32,18 +32,43 @@ Species::Species(const PhaseFunction& function, double exponent) : function_(fun
   largest_extinction_ratio_ = *std::max_element(extinction_ratio_.begin(), extinction_ratio_.end());
 }
 
-Species::Species(ScatteringTable table, const SphereTableOptions& options)
-    : table_(std::move(table)), lobes_(std::make_unique<const SphereTable>(table_, options)), size_um_(table_.size_um) {
+void Species::set_sizes(const std::vector<double>& size_um) {
+  size_um_ = size_um;
   for (const double size : size_um_) log_size_.push_back(static_cast<float>(std::log(size)));
-  if (size_um_.size() > 1) {
-    const float span = log_size_.back() - log_size_.front();
-    guide_scale_ = guide_cells / span;
-    for (int cell = 0; cell <= guide_cells; ++cell) {
-      const float start = log_size_.front() + span * static_cast<float>(cell) / guide_cells;
-      const auto above = std::upper_bound(log_size_.begin() + 1, log_size_.end() - 1, start);
-      guide_.push_back(static_cast<unsigned short>(above - log_size_.begin() - 1));
-    }
+  if (size_um_.size() == 1) return;
+  const float span = log_size_.back() - log_size_.front();
+  guide_scale_ = guide_cells / span;
+  for (int cell = 0; cell <= guide_cells; ++cell) {
+    const float start = log_size_.front() + span * static_cast<float>(cell) / guide_cells;
+    const auto above = std::upper_bound(log_size_.begin() + 1, log_size_.end() - 1, start);
+    guide_.push_back(static_cast<unsigned short>(above - log_size_.begin() - 1));
   }
+}
+
+Species::Species(std::unique_ptr<const OrientedCrystals> crystals) : oriented_(std::move(crystals)) {
+  const std::vector<double>& nm = oriented_->table().wavelength_nm;
+  set_sizes(oriented_->table().size_um);
+  make_wavelength_grid(nm.front(), nm.back());
+  const auto at = [&](int i) { return first_wavelength_nm_ + (wavelengths_per_nm_ > 0 ? i / wavelengths_per_nm_ : 0); };
+  constexpr int nodes = OrientedCrystals::sine_nodes;
+  directed_extinction_ratio_.resize(nodes);
+  for (int size = 0; size < oriented_->size_count(); ++size) {
+    for (int node = 0; node < nodes; ++node)
+      for (int i = 0; i < wavelength_count_; ++i)
+        directed_extinction_ratio_[static_cast<std::size_t>(node)].push_back(
+            static_cast<float>(oriented_->extinction_ratio(size, node / static_cast<double>(nodes - 1), at(i))));
+    for (int i = 0; i < wavelength_count_; ++i)
+      extinction_ratio_.push_back(static_cast<float>(oriented_->mean_extinction_ratio(size, at(i))));
+  }
+  // What is absorbed is in the map, and in what is drawn.
+  albedo_.assign(extinction_ratio_.size(), 1.0f);
+  for (const auto& ratios : directed_extinction_ratio_)
+    largest_extinction_ratio_ = std::max(largest_extinction_ratio_, *std::max_element(ratios.begin(), ratios.end()));
+}
+
+Species::Species(ScatteringTable table, const SphereTableOptions& options)
+    : table_(std::move(table)), lobes_(std::make_unique<const SphereTable>(table_, options)) {
+  set_sizes(table_.size_um);
   make_wavelength_grid(table_.wavelength_nm.front(), table_.wavelength_nm.back());
   const std::size_t count = table_.wavelength_nm.size();
   const auto curve = [&](const std::vector<double>& values, std::size_t size) {
@@ -100,14 +125,19 @@ Spectrum Species::extinction_ratio(float size_um, const Wavelengths& wavelengths
   return read(extinction_ratio_, place_of(size_um), wavelengths);
 }
 
+Spectrum Species::directed_extinction_ratio(float size_um, int sine_node, const Wavelengths& wavelengths) const {
+  return read(directed_extinction_ratio_[static_cast<std::size_t>(sine_node)], place_of(size_um), wavelengths);
+}
+
 Spectrum Species::albedo(float size_um, const Wavelengths& wavelengths) const {
   return read(albedo_, place_of(size_um), wavelengths);
 }
 
 PhaseFunction Species::phase_function(float size_um, float u) const {
-  if (!lobes_) return function_;
+  if (!lobes_ && !oriented_) return function_;
   const Place place = place_of(size_um);
-  return PhaseFunction(SphereLobe{lobes_.get(), u < place.share ? place.node + 1 : place.node});
+  const int node = u < place.share ? place.node + 1 : place.node;
+  return lobes_ ? PhaseFunction(SphereLobe{lobes_.get(), node}) : PhaseFunction(OrientedLobe{oriented_.get(), node});
 }
 
 double Species::forward_fraction(double size_um, double wavelength_nm) const {
@@ -125,7 +155,7 @@ double Species::forward_fraction(double size_um, double wavelength_nm) const {
 std::size_t Species::memory_bytes() const {
   const std::size_t table = (table_.p11.size() + table_.p12.size() + table_.p33.size() + table_.p34.size()) * 4 +
                             table_.extinction_cross_section_m2.size() * 32;
-  return table + (lobes_ ? lobes_->memory_bytes() : 0) + (extinction_ratio_.size() + albedo_.size()) * 4;
+  return table + (lobes_ ? lobes_->memory_bytes() : 0) + (oriented_ ? oriented_->memory_bytes() : 0) + (extinction_ratio_.size() + albedo_.size()) * 4;
 }
 
 }  // namespace arcus::phase

@@ -11,6 +11,7 @@
 
 #include "phase/base/spectrum.h"
 #include "phase/base/wavelengths.h"
+#include "phase/function/oriented_crystals.h"
 #include "phase/function/phase_function.h"
 #include "phase/function/sphere_table.h"
 #include "phase/population/scattering_table.h"
@@ -26,13 +27,21 @@ class Species {
   Species(const PhaseFunction& function, double exponent);
   /// Particles with a table. What a renderer reads is made here: seconds, and tens of megabytes.
   Species(ScatteringTable table, const SphereTableOptions& options);
+  /// Crystals that lie in a preferred way.
+  explicit Species(std::unique_ptr<const OrientedCrystals> crystals);
   Species(const Species&) = delete;
   Species& operator=(const Species&) = delete;
 
   /// (1 − f) C_ext(size, λ) / C_ext(size, 550 nm): times the extinction coefficient at 550 nm (diffraction included)
   /// it is the coefficient that a renderer uses.
+  /// The mean over all directions of the light.
   Spectrum extinction_ratio(float size_um, const Wavelengths& wavelengths) const;
-  /// Bound of extinction_ratio over all sizes and wavelengths.
+  /// True where extinction depends on the direction of the light, and directed_extinction_ratio tells how.
+  bool is_oriented() const { return oriented_ != nullptr; }
+  /// The same for light whose direction has this node's sine of elevation, of OrientedCrystals::sine_nodes from 0 to 1; linear
+  /// between them. Only where is_oriented().
+  Spectrum directed_extinction_ratio(float size_um, int sine_node, const Wavelengths& wavelengths) const;
+  /// Bound of extinction_ratio over all sizes, wavelengths and directions.
   float largest_extinction_ratio() const { return largest_extinction_ratio_; }
   /// Share of that extinction that is scattered.
   Spectrum albedo(float size_um, const Wavelengths& wavelengths) const;
@@ -45,6 +54,10 @@ class Species {
   const ScatteringTable* table() const { return lobes_ ? &table_ : nullptr; }
   /// What phase_function reads; null for a function in closed form.
   const SphereTable* sphere_table() const { return lobes_.get(); }
+  /// Crystals that lie in a preferred way; null for all else.
+  const OrientedCrystals* oriented() const { return oriented_.get(); }
+  /// Size nodes [um]; {1} for a function in closed form.
+  const std::vector<double>& size_nodes_um() const { return size_um_; }
   /// Ends of the size nodes; both 1 for a function in closed form.
   double smallest_size_um() const { return size_um_.front(); }
   double largest_size_um() const { return size_um_.back(); }
@@ -58,10 +71,12 @@ class Species {
   };
   Place place_of(float size_um) const;
   Spectrum read(const std::vector<float>& values, Place place, const Wavelengths& wavelengths) const;
+  void set_sizes(const std::vector<double>& size_um);
   void make_wavelength_grid(double first_nm, double last_nm);
 
   ScatteringTable table_;
   std::unique_ptr<const SphereTable> lobes_;
+  std::unique_ptr<const OrientedCrystals> oriented_;
   PhaseFunction function_;  // where there is no table
   std::vector<double> size_um_;
   std::vector<float> log_size_;
@@ -70,6 +85,7 @@ class Species {
   int wavelength_count_ = 0;
   double first_wavelength_nm_ = 0, wavelengths_per_nm_ = 0;
   std::vector<float> extinction_ratio_, albedo_;  // [size][uniform wavelength]
+  std::vector<std::vector<float>> directed_extinction_ratio_;  // [sine node], each as extinction_ratio_
   float largest_extinction_ratio_ = 1;
 };
 

@@ -179,14 +179,15 @@ void VolumePath::scatter(Path& path, const media::Collision& collision, Sample& 
   // Where the path goes to the sun already, its own turns look there.
   const float to_sun_share = sun.is_on() && function.is_peaked() ? paths_to_sun / path.promise : 0;
   const float again_share = to_sun_share > 0 && path.promise > 1 ? again_to_sun : 0;
-  // Expected number of paths that leave in a direction, a steradian, and what of them was meant for the sun.
+  // Expected number of paths that leave in a direction, a steradian, and what of them was meant for the sun; `own`: density of
+  // the function's own draws.
   struct Density {
     Spectrum all, to_sun;
   };
-  const auto density = [&](const Vec3& outgoing, const Spectrum& value) -> Density {
-    if (to_sun_share == 0) return {value, {}};
+  const auto density = [&](const Vec3& outgoing, const Spectrum& own) -> Density {
+    if (to_sun_share == 0) return {own, {}};
     const Spectrum to_sun = function.value(sun.to_centre(), outgoing, wavelengths);
-    return {value * (1 - again_share) + to_sun * (to_sun_share + again_share), to_sun};
+    return {own * (1 - again_share) + to_sun * (to_sun_share + again_share), to_sun};
   };
 
   // 0 for rays to the sun that are not sent; what the others stand for.
@@ -202,7 +203,7 @@ void VolumePath::scatter(Path& path, const media::Collision& collision, Sample& 
     const Vec3 to_sun = sun.draw(random.uniform_double(), random.uniform_double());
     if (function.includes_sun_disc()) {
       // The disc is in the table; only the way to it is drawn.
-      const Spectrum value = function.sunlit_value(sun.to_centre(), incoming, wavelengths);
+      const Spectrum value = function.sunlit_value(incoming, sun.to_centre(), wavelengths);
       if (const float weight = sun_ray_weight(value); weight > 0)
         sample.total += path.contribution(value * sample.sunlight.irradiance_w_per_m2_nm *
                                           sun_transmittance(collision.position_m, to_sun, sample)) * weight;
@@ -217,8 +218,8 @@ void VolumePath::scatter(Path& path, const media::Collision& collision, Sample& 
     }
   }
 
-  const auto leave = [&](Path& leaving, const Vec3& outgoing, const Spectrum& value) {
-    const Density densities = density(outgoing, value);
+  const auto leave = [&](Path& leaving, const Vec3& outgoing, const Spectrum& value, const Spectrum& own) {
+    const Density densities = density(outgoing, own);
     if (function.includes_sun_disc()) {
       leaving.sun_share = 0;
     } else {
@@ -235,16 +236,18 @@ void VolumePath::scatter(Path& path, const media::Collision& collision, Sample& 
   if (to_sun_share > 0 && random.uniform() < to_sun_share) {
     Path second = path;
     const Vec3 outgoing = function.draw(sun.to_centre(), wavelengths, random).outgoing;
-    leave(second, outgoing, function.value(incoming, outgoing, wavelengths));
+    const Spectrum value = function.value(incoming, outgoing, wavelengths);
+    leave(second, outgoing, value, value);
     follow(second, sample);
   }
   if (again_share > 0 && random.uniform() < again_share) {
     const Vec3 outgoing = function.draw(sun.to_centre(), wavelengths, random).outgoing;
-    leave(path, outgoing, function.value(incoming, outgoing, wavelengths));
+    const Spectrum value = function.value(incoming, outgoing, wavelengths);
+    leave(path, outgoing, value, value);
     return;
   }
   const phase::Draw draw = function.draw(incoming, wavelengths, random);
-  leave(path, draw.outgoing, draw.value_per_sr);
+  leave(path, draw.outgoing, draw.value_per_sr, draw.density_per_sr);
 }
 
 void VolumePath::reflect(Path& path, const Hit& hit, Sample& sample) const {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <map>
 
 #include "media/grid/stored_medium.h"
 #include "media/tracking/collision_walk.h"
@@ -37,7 +38,10 @@ std::string name_of(const MediumSettings& settings, const SceneSettings& scene) 
   return scene.path + ": medium '" + (settings.name.empty() ? settings.vdb : settings.name) + "'";
 }
 
-void add_medium(const MediumSettings& settings, const SceneSettings& scene, const BuildOptions& options,
+/// Species that were made once, by their recipe: several media of a scene may share one.
+using MadeSpecies = std::map<std::string, std::shared_ptr<const phase::Species>>;
+
+void add_medium(const MediumSettings& settings, const SceneSettings& scene, const BuildOptions& options, MadeSpecies& made,
                 std::vector<media::Component>& components) {
   const std::string where = name_of(settings, scene);
   const std::string path = path_from(scene.folder, settings.vdb);
@@ -47,13 +51,16 @@ void add_medium(const MediumSettings& settings, const SceneSettings& scene, cons
 
   phase::SpeciesOptions species_options;
   species_options.sun_angular_radius_rad = radians(scene.sun.angular_radius_deg);
+  if (scene.sun.irradiance_scale > 0) species_options.sun_elevation_deg = scene.sun.elevation_deg;
   species_options.cache_folder = options.cache_folder;
   species_options.log = options.log;
   for (media::StoredMedium& one : stored.media) {
     const phase::Recipe recipe = recipe_of(settings, one, where, scene.folder);
     media::Component component;
     component.name = one.name;
-    component.species = phase::make_species(recipe, species_options);
+    auto& species = made[phase::text_of(recipe)];
+    if (!species) species = phase::make_species(recipe, species_options);
+    component.species = species;
     component.grid = one.grid;
     component.world_from_index = placement(settings) * one.world_from_index;
     component.interpolation =
@@ -61,10 +68,11 @@ void add_medium(const MediumSettings& settings, const SceneSettings& scene, cons
     component.extinction_scale = one.is_species ? 1 : static_cast<float>(settings.extinction_per_m);
     component.albedo_scale = static_cast<float>(settings.albedo);
     component.size_um = one.size_um;
-    if (const phase::ScatteringTable* table = component.species->table(); table && !one.is_species && component.size_um == 0) {
-      if (table->size_um.size() > 1 && options.log)
+    const std::vector<double>& sizes = component.species->size_nodes_um();
+    if (!one.is_species && component.size_um == 0) {
+      if (sizes.size() > 1 && options.log)
         options.log(where + ": the grid has no sizes; all particles get the recipe's middle size node");
-      component.size_um = static_cast<float>(table->size_um[table->size_um.size() / 2]);
+      component.size_um = static_cast<float>(sizes[sizes.size() / 2]);
     }
     if (one.is_species && settings.extinction_per_m != 1)
       throw bad_input(where + ": extinction_per_m", number_text(settings.extinction_per_m),
@@ -94,7 +102,8 @@ void report_depth(const media::Medium& medium, const BuildOptions& options) {
 
 Scene build_scene(const SceneSettings& settings, const BuildOptions& options) {
   std::vector<media::Component> components;
-  for (const MediumSettings& medium : settings.media) add_medium(medium, settings, options, components);
+  MadeSpecies made;
+  for (const MediumSettings& medium : settings.media) add_medium(medium, settings, options, made, components);
   auto medium = std::make_unique<const media::Medium>(std::move(components));
   report_depth(*medium, options);
   const Curve irradiance = sun_irradiance(settings.sun, settings.folder);
