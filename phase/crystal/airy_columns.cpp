@@ -40,10 +40,11 @@ void AiryColumns::draw(const Column& size_parameter, RandomColumns& random, Turn
     const float x = size_parameter[i];
     // Share of the plane's pattern that lies on the sphere, v up to 2 x; but for the rings of its last digits.
     const float whole = 1 - 0.318309886f / x;
-    const float at = std::fmin(-quick_logarithm(1 - share[i] * whole), 0.999f * longest) * scale;
+    const float depth = -quick_logarithm(1 - share[i] * whole);
+    const float at = (depth < 0.999f * longest ? depth : 0.999f * longest) * scale;
     const auto node = static_cast<std::int32_t>(at);
     const float square = squares[node] + (at - static_cast<float>(node)) * (squares[node + 1] - squares[node]);
-    const float sin2_half = std::fmin(1.0f, square / (4 * x * x));
+    const float ratio = square / (4 * x * x), sin2_half = ratio < 1 ? ratio : 1;
     const float sine = 2 * std::sqrt(sin2_half * (1 - sin2_half));
     const QuickSineCosine around = quick_sine_and_cosine_of_turn(azimuth[i]);
     turns.cosine[i] = 1 - 2 * sin2_half;

@@ -6,6 +6,7 @@
 
 #include "phase/base/units.h"
 #include "phase/population/map_rays.h"
+#include "phase/population/map_smoother.h"
 #include "phase/population/tabulate_crystals.h"
 
 namespace arcus::phase {
@@ -29,6 +30,38 @@ class Work {
   double whole_, done_ = 0;
   std::mutex mutex_;
 };
+
+/// A sum of planes that come in any order, added in their own, so that it is the same for any number of threads.
+class SumInOrder {
+ public:
+  SumInOrder(std::size_t planes, std::size_t size) : waiting_(planes), sum_(size) {}
+  void add(std::size_t which, std::vector<float> plane) {
+    const std::lock_guard guard(mutex_);
+    waiting_[which] = std::move(plane);
+    for (; next_ < waiting_.size() && !waiting_[next_].empty(); ++next_) {
+      for (std::size_t i = 0; i < sum_.size(); ++i) sum_[i] += waiting_[next_][i];
+      waiting_[next_] = {};
+    }
+  }
+  const std::vector<float>& sum() const { return sum_; }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::vector<float>> waiting_;
+  std::vector<float> sum_;
+  std::size_t next_ = 0;
+};
+
+/// One task for each, however little it seems to be.
+template <class Action>
+void for_each(std::size_t count, const Action& action) {
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, count, 1),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) action(i);
+      },
+      tbb::simple_partitioner());
+}
 
 MapOptions options_of(const CrystalTableSettings& settings, const CrystalPopulation& crystals) {
   const bool narrow = is_diffraction_narrow(crystals);
@@ -106,28 +139,41 @@ OrientedTable tabulate_oriented_crystals(const CrystalTableSettings& settings, d
     const CrystalPopulation crystals(settings.crystals, settings.size_um[size]);
     const MapOptions options = options_of(settings, crystals);
     const double mean_square = std::exp(settings.size_spread * settings.size_spread);
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, waves, 1),
-        [&](const tbb::blocked_range<std::size_t>& range) {
-          for (std::size_t wavelength = range.begin(); wavelength < range.end(); ++wavelength) {
-            const CrystalWave& wave = settings.waves[wavelength];
-            const SunLight sun(sun_elevation_deg, sun_angular_radius_deg, wave.wavelength_nm);
-            std::vector<MapCell> cells(grid.size());
-            RandomColumns random(map_seed, wavelength, static_cast<std::uint32_t>(size));
-            RayAccount account;
-            const double rays = add_rays(crystals, wave, options, sun, grid, settings.rays, random, cells, account);
-            for (int row = 0; row <= grid.steps(); ++row)
-              for (int column = 0; column <= grid.steps(); ++column) {
-                const std::size_t at = static_cast<std::size_t>(row) * grid.row() + static_cast<std::size_t>(column);
-                const double sr = grid.cell_sr(row) * SkyGrid::images(column, grid.steps());
-                table.scattering_m2_per_sr[(size * grid.size() + at) * waves + wavelength] =
-                    static_cast<float>(m2_from_um2 * mean_square * cells[at].light / (rays * sr));
-              }
-            account_row(crystals, wave, options, settings.diffraction, size, wavelength, table);
-            work.done(1);
-          }
-        },
-        tbb::simple_partitioner());
+    std::vector<std::vector<float>> light(waves);  // by cell, a plane for each wavelength
+    std::vector<double> scale(waves);
+    SumInOrder all_light(waves, grid.size()), all_squares(waves, grid.size());
+    for_each(waves, [&](std::size_t wavelength) {
+      const CrystalWave& wave = settings.waves[wavelength];
+      const SunLight sun(sun_elevation_deg, sun_angular_radius_deg, wave.wavelength_nm);
+      std::vector<MapCell> cells(grid.size());
+      RandomColumns random(map_seed, wavelength, static_cast<std::uint32_t>(size));
+      RayAccount account;
+      const double rays = add_rays(crystals, wave, options, sun, grid, settings.rays, random, cells, account);
+      scale[wavelength] = m2_from_um2 * mean_square / rays;
+      std::vector<float> squares(grid.size());
+      light[wavelength].resize(grid.size());
+      for (std::size_t at = 0; at < cells.size(); ++at) {
+        light[wavelength][at] = cells[at].light;
+        squares[at] = cells[at].squares;
+      }
+      all_light.add(wavelength, light[wavelength]);
+      all_squares.add(wavelength, std::move(squares));
+      account_row(crystals, wave, options, settings.diffraction, size, wavelength, table);
+      work.done(0.9);
+    });
+    const MapSmoother smoother(grid, all_light.sum(), all_squares.sum(), settings.map_noise);
+    std::copy(smoother.relative_error().begin(), smoother.relative_error().end(),
+              table.relative_error.begin() + static_cast<std::ptrdiff_t>(size * grid.size()));
+    for_each(waves, [&](std::size_t wavelength) {
+      smoother.smooth(light[wavelength]);
+      work.done(0.1);
+    });
+    for_each(grid.row(), [&](std::size_t row) {
+      for (std::size_t at = row * grid.row(); at < (row + 1) * grid.row(); ++at)
+        for (std::size_t wavelength = 0; wavelength < waves; ++wavelength)
+          table.scattering_m2_per_sr[(size * grid.size() + at) * waves + wavelength] =
+              static_cast<float>(scale[wavelength] * light[wavelength][at]);
+    });
   }
   return table;
 }
