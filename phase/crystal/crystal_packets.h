@@ -35,9 +35,15 @@ class CrystalBatch {
   void set(int ray, const Vec3& incoming, double n, double absorption_per_length, float u_face,
            float u1, float u2, std::uint32_t bits);
 
+  /// The same for all rays by columns, [ray], to be written: x, y, z of the direction, index, absorption, three numbers in [0, 1)
+  /// and, only for `draw`, bits.
+  std::span<float> input(int quantity) { return {row(quantity), static_cast<std::size_t>(rays_)}; }
+  static constexpr int input_x = 0, input_y = 1, input_z = 2, input_index = 3, input_absorption = 4, input_numbers = 5;
+
   /// The crystal's shadow for this ray: rays from orientations drawn without regard to it count in
   /// proportion to it.
   double projected_area(int ray) const { return row(area)[ray]; }
+  std::span<const float> projected_areas() const { return {row(area), static_cast<std::size_t>(rays_)}; }
 
   // After CrystalPackets::split: event 0 is what is reflected outside, event e what leaves at the
   // e-th face met from inside; light.i is 0 under total reflection. After draw there is event 0

@@ -49,8 +49,13 @@ class Orientations {
   /// True where the mean over the orientations depends on no direction.
   bool isotropic() const { return kind_ == Kind::random; }
 
- private:
   enum class Kind { random, plate, column, parry, lowitz };
+  Kind kind() const { return kind_; }
+  bool gaussian() const { return gaussian_; }
+  double tilt_rad() const { return tilt_rad_; }
+  double roll_rad() const { return roll_rad_; }
+
+ private:
   double angle_rad(double width_rad, Random& random) const;
 
   Kind kind_;

@@ -1,0 +1,177 @@
+#include "phase/population/map_rays.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "phase/base/quick_math.h"
+#include "phase/base/units.h"
+#include "phase/optics/refractive_index.h"
+
+namespace arcus::phase {
+namespace {
+
+/// Sizes around the population's, drawn by their areas. With ln s normal around -w^2/2 (mean 1), the mean of s^2 is exp(w^2), and
+/// ln s weighted with s^2 is normal around 3/2 w^2.
+class SizeSpread {
+ public:
+  explicit SizeSpread(double spread) : spread_(spread) {}
+  double mean_square() const { return std::exp(spread_ * spread_); }
+  void draw(RandomColumns& random, Column& factor) const {
+    if (spread_ == 0) {
+      std::fill_n(factor.values, column_rays, 1.0f);
+      return;
+    }
+    Column u, v;
+    random.uniform(u.values, column_rays);
+    random.uniform(v.values, column_rays);
+    for (int i = 0; i < column_rays; ++i) {
+      const double normal = std::sqrt(-2 * quick_logarithm(1 - u[i])) * quick_sine_and_cosine_of_turn(v[i]).cosine;
+      factor[i] = static_cast<float>(std::exp(spread_ * (normal + 1.5 * spread_)));
+    }
+  }
+
+ private:
+  double spread_;
+};
+
+/// Sums by column, so that loops over rays stay vectors.
+struct Sums {
+  Column shadow{}, straight{}, absorbed{}, cut_off{};
+};
+
+void add(const Sums& sums, double factor, RayAccount& account) {
+  for (int i = 0; i < column_rays; ++i) {
+    account.shadow += factor * sums.shadow[i];
+    account.straight += factor * sums.straight[i];
+    account.absorbed += factor * sums.absorbed[i];
+    account.cut_off += factor * sums.cut_off[i];
+  }
+}
+
+void count_rays(const CrystalBatch& batch, Sums& sums) {
+  const float* area = batch.projected_areas().data();
+  for (int i = 0; i < column_rays; ++i) {
+    sums.shadow[i] += area[i];
+    sums.absorbed[i] += area[i] * static_cast<float>(batch.absorbed(i));
+    sums.cut_off[i] += area[i] * static_cast<float>(batch.cut_off(i));
+  }
+}
+
+/// Cross-sections of what leaves in an event; light that goes straight on apart.
+void weigh(const CrystalShower& shower, int event, bool keep_straight, Column& light, Column& straight) {
+  const CrystalBatch& batch = shower.batch();
+  const float* area = batch.projected_areas().data();
+  const float* power = batch.column(event, CrystalBatch::i).data();
+  const float* x = batch.column(event, CrystalBatch::x).data();
+  const float* y = batch.column(event, CrystalBatch::y).data();
+  const float* z = batch.column(event, CrystalBatch::z).data();
+  const VectorColumns& in = shower.incoming();
+  for (int i = 0; i < column_rays; ++i) {
+    const float dx = x[i] - in.x[i], dy = y[i] - in.y[i], dz = z[i] - in.z[i];
+    const bool is_straight = dx * dx + dy * dy + dz * dz < 1e-9f;  // CrystalLight::is_undeviated
+    const float weight = power[i] * area[i];
+    straight[i] += is_straight ? weight : 0;
+    light[i] = is_straight && !keep_straight ? 0 : weight;
+  }
+}
+
+/// The cell in which a viewer sees light of this direction.
+void find_cells(const VectorColumns& light, const SkyGrid& grid, std::int32_t* cell) {
+  const auto scale = static_cast<float>(1 / grid.step_rad());
+  const std::int32_t row = grid.steps() + 1;
+  for (int i = 0; i < column_rays; ++i) {
+    const float x = light.x[i], y = light.y[i];
+    const float level = std::sqrt(x * x + y * y);
+    // Nothing divides by 0 if light comes from straight above.
+    const float from_below = quick_angle(level + 1e-30f, light.z[i]);
+    const float azimuth = quick_angle(std::fabs(y) + 1e-30f, -x);
+    const std::int32_t up = static_cast<std::int32_t>(from_below * scale + 0.5f);
+    const std::int32_t around = static_cast<std::int32_t>(azimuth * scale + 0.5f);
+    cell[i] = std::min(up, row - 1) * row + std::min(around, row - 1);
+  }
+}
+
+}  // namespace
+
+double add_rays(const CrystalPopulation& crystals, const CrystalWave& wave, const MapOptions& options, const SunLight& sun,
+                const SkyGrid& grid, double rays, RandomColumns& random, std::vector<MapCell>& cells, RayAccount& account) {
+  CrystalShower shower(crystals, wave, options.events);
+  const AiryColumns airy;
+  const SizeSpread sizes(options.size_spread);
+  const auto x_of_root = static_cast<float>(size_parameter(1, wave.wavelength_nm) / std::sqrt(pi));
+  const CrystalBatch& batch = shower.batch();
+  const double batches = std::ceil(rays / column_rays);
+  MapCell* map = cells.data();
+  VectorColumns light, crystal, seen;
+  Column factor, weight, x;
+  AiryColumns::Turns turns;
+  std::int32_t cell[column_rays];
+  const auto deposit = [&](const VectorColumns& directions) {
+    find_cells(directions, grid, cell);
+    for (int i = 0; i < column_rays; ++i) {
+      if (!(weight[i] > 0)) continue;
+      MapCell& at = map[cell[i]];
+      at.light += weight[i];
+      at.squares += weight[i] * weight[i];
+    }
+  };
+  for (double sent = 0; sent < batches; ++sent) {
+    Sums sums;
+    sun.draw(random, light);
+    sizes.draw(random, factor);
+    shower.trace(light, factor, random);
+    count_rays(batch, sums);
+    const float* area = batch.projected_areas().data();
+    if (options.blur || options.diffracted_light) {
+      for (int i = 0; i < column_rays; ++i) x[i] = x_of_root * factor[i] * std::sqrt(area[i]);
+      airy.draw(x, random, turns);
+    }
+    for (int event = 0; event <= shower.events(); ++event) {
+      weigh(shower, event, options.keep_straight, weight, sums.straight);
+      std::copy_n(batch.column(event, CrystalBatch::x).data(), column_rays, crystal.x.values);
+      std::copy_n(batch.column(event, CrystalBatch::y).data(), column_rays, crystal.y.values);
+      std::copy_n(batch.column(event, CrystalBatch::z).data(), column_rays, crystal.z.values);
+      if (options.blur) turn(turns, crystal);
+      shower.orientations().to_world(crystal, seen);
+      deposit(seen);
+    }
+    if (options.diffracted_light) {
+      std::copy_n(area, column_rays, weight.values);
+      turn(turns, light);
+      deposit(light);
+    }
+    add(sums, sizes.mean_square(), account);
+  }
+  // Only now, as sums by cell are of the population's own size.
+  const double sent = batches * column_rays;
+  for (double* mean : {&account.shadow, &account.straight, &account.absorbed, &account.cut_off}) *mean /= sent;
+  return sent;
+}
+
+RayAccount account_of(const CrystalPopulation& crystals, const CrystalWave& wave, const MapOptions& options, double sine_elevation,
+                      int rays, RandomColumns& random) {
+  CrystalShower shower(crystals, wave, options.events);
+  const SizeSpread sizes(options.size_spread);
+  VectorColumns light;
+  Column factor, ignored;
+  for (int i = 0; i < column_rays; ++i) {
+    light.x[i] = static_cast<float>(-std::sqrt(std::max(0.0, 1 - sine_elevation * sine_elevation)));
+    light.y[i] = 0;
+    light.z[i] = static_cast<float>(-sine_elevation);
+  }
+  RayAccount account;
+  const int batches = (rays + column_rays - 1) / column_rays;
+  for (int sent = 0; sent < batches; ++sent) {
+    Sums sums;
+    sizes.draw(random, factor);
+    shower.trace(light, factor, random);
+    count_rays(shower.batch(), sums);
+    for (int event = 0; event <= shower.events(); ++event) weigh(shower, event, true, ignored, sums.straight);
+    add(sums, sizes.mean_square(), account);
+  }
+  for (double* mean : {&account.shadow, &account.straight, &account.absorbed, &account.cut_off})
+    *mean /= static_cast<double>(batches) * column_rays;
+  return account;
+}
+
+}  // namespace arcus::phase

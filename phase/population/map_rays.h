@@ -1,0 +1,41 @@
+#pragma once
+// Rays of one wavelength through oriented crystals into a map of the sky.
+
+#include <vector>
+
+#include "phase/crystal/airy_columns.h"
+#include "phase/crystal/crystal_shower.h"
+#include "phase/population/sky_grid.h"
+#include "phase/population/sun_light.h"
+
+namespace arcus::phase {
+
+/// Light that fell into one cell: sum over rays of cross-sections [um2], and of their squares.
+struct MapCell {
+  float light = 0, squares = 0;
+};
+
+/// Means over rays [um2].
+struct RayAccount {
+  double shadow = 0;    ///< of a crystal
+  double straight = 0;  ///< of it: light that goes on as it came
+  double absorbed = 0, cut_off = 0;
+};
+
+struct MapOptions {
+  bool keep_straight = false;    ///< in the map
+  bool blur = false;             ///< by the diffraction of every crystal's shadow
+  bool diffracted_light = false; ///< in the map: as much again as the shadow
+  double size_spread = 0;        ///< standard deviation of ln size; the population's size is the mean
+  int events = 10;
+};
+
+/// Adds at least that many rays to the cells, row by row from the lowest elevation. Returns their number.
+double add_rays(const CrystalPopulation& crystals, const CrystalWave& wave, const MapOptions& options, const SunLight& sun,
+                const SkyGrid& grid, double rays, RandomColumns& random, std::vector<MapCell>& cells, RayAccount& account);
+
+/// What becomes of light whose direction has that sine of elevation.
+RayAccount account_of(const CrystalPopulation& crystals, const CrystalWave& wave, const MapOptions& options, double sine_elevation,
+                      int rays, RandomColumns& random);
+
+}  // namespace arcus::phase

@@ -1,0 +1,181 @@
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "phase/base/units.h"
+#include "phase/population/map_rays.h"
+#include "phase/population/map_smoother.h"
+#include "phase/population/tabulate_crystals.h"
+
+namespace arcus::phase {
+namespace {
+
+constexpr int sine_nodes = 33, rays_by_sine = 32768;
+constexpr std::uint64_t map_seed = 0x6d6170, account_seed = 0x616363;
+
+/// Tells how much is done, one thread at a time.
+class Work {
+ public:
+  Work(const std::function<void(double)>& progress, double whole) : progress_(progress), whole_(whole) {}
+  void done(double amount) {
+    const std::lock_guard guard(mutex_);
+    done_ += amount;
+    if (progress_) progress_(std::min(1.0, done_ / whole_));
+  }
+
+ private:
+  const std::function<void(double)>& progress_;
+  double whole_, done_ = 0;
+  std::mutex mutex_;
+};
+
+/// A sum of planes that come in any order, added in their own, so that it is the same for any number of threads.
+class SumInOrder {
+ public:
+  SumInOrder(std::size_t planes, std::size_t size) : waiting_(planes), sum_(size) {}
+  void add(std::size_t which, std::vector<float> plane) {
+    const std::lock_guard guard(mutex_);
+    waiting_[which] = std::move(plane);
+    for (; next_ < waiting_.size() && !waiting_[next_].empty(); ++next_) {
+      for (std::size_t i = 0; i < sum_.size(); ++i) sum_[i] += waiting_[next_][i];
+      waiting_[next_] = {};
+    }
+  }
+  const std::vector<float>& sum() const { return sum_; }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::vector<float>> waiting_;
+  std::vector<float> sum_;
+  std::size_t next_ = 0;
+};
+
+/// One task for each, however little it seems to be.
+template <class Action>
+void for_each(std::size_t count, const Action& action) {
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, count, 1),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) action(i);
+      },
+      tbb::simple_partitioner());
+}
+
+MapOptions options_of(const CrystalTableSettings& settings, const CrystalPopulation& crystals) {
+  const bool narrow = is_diffraction_narrow(crystals);
+  MapOptions options;
+  options.blur = settings.diffraction;
+  // Where diffraction is wider than the sun's disc, light that goes straight on is blurred with it and stays in the map.
+  options.keep_straight = !settings.remove_forward || (settings.diffraction && !narrow);
+  options.diffracted_light = settings.diffraction && !(settings.remove_forward && narrow);
+  options.size_spread = settings.size_spread;
+  return options;
+}
+
+void lay_out(OrientedTable& table, const CrystalTableSettings& settings, const SkyGrid& grid) {
+  table.size_um = settings.size_um;
+  for (const CrystalWave& wave : settings.waves) table.wavelength_nm.push_back(wave.wavelength_nm);
+  // Closer where light grazes flat crystals: their shadow changes there within the angle of their tilt.
+  for (int i = 0; i < sine_nodes; ++i) {
+    const double t = static_cast<double>(i) / (sine_nodes - 1);
+    table.sine_elevation.push_back(t * t);
+  }
+  for (int i = 0; i <= grid.steps(); ++i) {
+    table.elevation_deg.push_back(grid.elevation_deg(i));
+    table.azimuth_deg.push_back(grid.azimuth_deg(i));
+  }
+  const std::size_t rows = table.size_um.size() * table.wavelength_nm.size();
+  table.extinction_cross_section_m2.resize(rows * sine_nodes);
+  table.forward_fraction.resize(rows * sine_nodes);
+  table.mean_extinction_cross_section_m2.resize(rows);
+  table.albedo.resize(rows);
+  table.scattering_m2_per_sr.resize(table.size_um.size() * grid.size() * table.wavelength_nm.size());
+  table.relative_error.resize(table.size_um.size() * grid.size());
+}
+
+constexpr double m2_from_um2 = 1e-12;
+
+/// Extinction, what of it goes straight on, and the albedo of one row.
+void account_row(const CrystalPopulation& crystals, const CrystalWave& wave, const MapOptions& options, bool diffraction,
+                 std::size_t size, std::size_t wavelength, OrientedTable& table) {
+  const std::size_t row = table.row(size, wavelength);
+  double stopped = 0, absorbed = 0, width_before = 0;
+  const auto& sines = table.sine_elevation;
+  for (std::size_t i = 0; i < sines.size(); ++i) {
+    // The same numbers at all wavelengths: what they differ in is then physics.
+    RandomColumns random(account_seed, size, static_cast<std::uint32_t>(i));
+    const RayAccount account = account_of(crystals, wave, options, sines[i], rays_by_sine, random);
+    const double extinction = (diffraction ? 2 : 1) * account.shadow;
+    double forward = options.keep_straight ? 0 : account.straight;
+    if (diffraction && !options.diffracted_light) forward += account.shadow;
+    table.extinction_cross_section_m2[row * sines.size() + i] = m2_from_um2 * extinction;
+    table.forward_fraction[row * sines.size() + i] = forward / extinction;
+    // Directions are uniform in the sine; trapezoids.
+    const double width_after = i + 1 < sines.size() ? sines[i + 1] - sines[i] : 0, width = 0.5 * (width_before + width_after);
+    stopped += width * (extinction - forward);
+    absorbed += width * account.absorbed;
+    width_before = width_after;
+  }
+  const double mean_square = std::exp(options.size_spread * options.size_spread);
+  table.mean_extinction_cross_section_m2[row] =
+      m2_from_um2 * (diffraction ? 2 : 1) * mean_square * crystals.mean_projected_area_um2();
+  table.albedo[row] = 1 - absorbed / stopped;
+}
+
+}  // namespace
+
+OrientedTable tabulate_oriented_crystals(const CrystalTableSettings& settings, double sun_elevation_deg, double sun_angular_radius_deg,
+                                         const std::function<void(double)>& progress) {
+  const SkyGrid grid(settings.map_step_deg);
+  OrientedTable table;
+  table.sun_elevation_deg = sun_elevation_deg;
+  table.sun_angular_radius_deg = sun_angular_radius_deg;
+  lay_out(table, settings, grid);
+  const std::size_t waves = settings.waves.size();
+  Work work(progress, static_cast<double>(settings.size_um.size() * waves));
+  for (std::size_t size = 0; size < settings.size_um.size(); ++size) {
+    const CrystalPopulation crystals(settings.crystals, settings.size_um[size]);
+    const MapOptions options = options_of(settings, crystals);
+    const double mean_square = std::exp(settings.size_spread * settings.size_spread);
+    std::vector<std::vector<float>> light(waves);  // by cell, a plane for each wavelength
+    std::vector<double> scale(waves);
+    SumInOrder all_light(waves, grid.size()), all_squares(waves, grid.size());
+    for_each(waves, [&](std::size_t wavelength) {
+      const CrystalWave& wave = settings.waves[wavelength];
+      const SunLight sun(sun_elevation_deg, sun_angular_radius_deg, wave.wavelength_nm);
+      std::vector<MapCell> cells(grid.size());
+      RandomColumns random(map_seed, wavelength, static_cast<std::uint32_t>(size));
+      RayAccount account;
+      const double rays = add_rays(crystals, wave, options, sun, grid, settings.rays, random, cells, account);
+      scale[wavelength] = m2_from_um2 * mean_square / rays;
+      std::vector<float> squares(grid.size());
+      light[wavelength].resize(grid.size());
+      for (std::size_t at = 0; at < cells.size(); ++at) {
+        light[wavelength][at] = cells[at].light;
+        squares[at] = cells[at].squares;
+      }
+      all_light.add(wavelength, light[wavelength]);
+      all_squares.add(wavelength, std::move(squares));
+      account_row(crystals, wave, options, settings.diffraction, size, wavelength, table);
+      work.done(0.9);
+    });
+    const MapSmoother smoother(grid, all_light.sum(), all_squares.sum(), settings.map_noise);
+    std::copy(smoother.relative_error().begin(), smoother.relative_error().end(),
+              table.relative_error.begin() + static_cast<std::ptrdiff_t>(size * grid.size()));
+    for_each(waves, [&](std::size_t wavelength) {
+      smoother.smooth(light[wavelength]);
+      work.done(0.1);
+    });
+    for_each(grid.row(), [&](std::size_t row) {
+      for (std::size_t at = row * grid.row(); at < (row + 1) * grid.row(); ++at)
+        for (std::size_t wavelength = 0; wavelength < waves; ++wavelength)
+          table.scattering_m2_per_sr[(size * grid.size() + at) * waves + wavelength] =
+              static_cast<float>(scale[wavelength] * light[wavelength][at]);
+    });
+  }
+  return table;
+}
+
+}  // namespace arcus::phase
