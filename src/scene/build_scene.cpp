@@ -58,7 +58,7 @@ void add_medium(const MediumSettings& settings, const SceneSettings& scene, cons
     const phase::Recipe recipe = recipe_of(settings, one, where, scene.folder);
     media::Component component;
     component.name = one.name;
-    auto& species = made[phase::text_of(recipe)];
+    auto& species = made[text_of(recipe)];
     if (!species) species = phase::make_species(recipe, species_options);
     component.species = species;
     component.grid = one.grid;
