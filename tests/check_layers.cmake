@@ -67,8 +67,8 @@ package("^Random123/" "^phase/base/" "Random123 stays in phase/base")
 package("^(oneapi/)?tbb/" "[.]cpp$" "TBB in sources, not in headers")
 package("^toml(plus|[+][+]|[.]hpp)" "^phase/settings/toml_text[.]cpp$"
   "the TOML parser stays in phase/settings/toml_text.cpp")
-package("^netcdf" "^phase/(base/netcdf_file|species/species_file)[.]cpp$"
-  "NetCDF stays in phase/base/netcdf_file.cpp and phase/species/species_file.cpp")
+package("^netcdf" "^phase/(base/netcdf_file|species/netcdf_table)[.]cpp$"
+  "NetCDF stays in phase/base/netcdf_file.cpp and phase/species/netcdf_table.cpp")
 package("^xxh" "^phase/(base/content_hash|species/[^/]*)[.]cpp$"
   "xxHash stays in phase/base/content_hash.cpp and sources of phase/species")
 package("^nlohmann/" "^(phase/settings|src/film|src/analysis|src/render|tools)/.*[.]cpp$"

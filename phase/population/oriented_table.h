@@ -26,9 +26,10 @@ struct OrientedTable {
   std::vector<double> elevation_deg;  ///< ascending from −90 to 90: where a viewer sees the light, opposite to its travel
   std::vector<double> azimuth_deg;    ///< ascending from 0 (the sun's) to 180; the other half is its mirror image
   /// Differential scattering cross-section, mean over a cell's neighbourhood [m2/sr], without what goes straight on:
-  /// [size][elevation][azimuth][wavelength], wavelength fastest. At the nodes; bilinear between.
+  /// [size][elevation][azimuth][wavelength], wavelength fastest. At the nodes; bilinear between. Nine binary digits.
   std::vector<float> scattering_m2_per_sr;
-  /// Standard error of the map over its value, mean over wavelengths: [size][elevation][azimuth].
+  /// Standard error over value of the sum over wavelengths: [size][elevation][azimuth]. That of one is about the square root of
+  /// their number larger.
   std::vector<float> relative_error;
 
   std::size_t row(std::size_t size, std::size_t wavelength) const { return size * wavelength_nm.size() + wavelength; }

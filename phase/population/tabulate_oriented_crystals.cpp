@@ -1,6 +1,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <mutex>
 
@@ -62,6 +63,13 @@ void for_each(std::size_t count, const Action& action) {
       },
       tbb::simple_partitioner());
 }
+
+/// A positive number with that many binary digits: far below the noise, and a file of such numbers is half as long.
+float rounded(float value, int digits) {
+  const std::uint32_t unit = 1u << (24 - digits);
+  return std::bit_cast<float>((std::bit_cast<std::uint32_t>(value) + unit / 2) & ~(unit - 1));
+}
+constexpr int light_digits = 9, error_digits = 5;
 
 MapOptions options_of(const CrystalTableSettings& settings, const CrystalPopulation& crystals) {
   const bool narrow = is_diffraction_narrow(crystals);
@@ -162,8 +170,8 @@ OrientedTable tabulate_oriented_crystals(const CrystalTableSettings& settings, d
       work.done(0.9);
     });
     const MapSmoother smoother(grid, all_light.sum(), all_squares.sum(), settings.map_noise);
-    std::copy(smoother.relative_error().begin(), smoother.relative_error().end(),
-              table.relative_error.begin() + static_cast<std::ptrdiff_t>(size * grid.size()));
+    for (std::size_t at = 0; at < grid.size(); ++at)
+      table.relative_error[size * grid.size() + at] = rounded(smoother.relative_error()[at], error_digits);
     for_each(waves, [&](std::size_t wavelength) {
       smoother.smooth(light[wavelength]);
       work.done(0.1);
@@ -172,7 +180,7 @@ OrientedTable tabulate_oriented_crystals(const CrystalTableSettings& settings, d
       for (std::size_t at = row * grid.row(); at < (row + 1) * grid.row(); ++at)
         for (std::size_t wavelength = 0; wavelength < waves; ++wavelength)
           table.scattering_m2_per_sr[(size * grid.size() + at) * waves + wavelength] =
-              static_cast<float>(scale[wavelength] * light[wavelength][at]);
+              rounded(static_cast<float>(scale[wavelength] * light[wavelength][at]), light_digits);
     });
   }
   return table;
