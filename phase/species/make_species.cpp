@@ -4,7 +4,9 @@
 
 #include "phase/base/error.h"
 #include "phase/population/tabulate.h"
+#include "phase/population/tabulate_crystals.h"
 #include "phase/settings/toml_text.h"
+#include "phase/species/crystal_recipe.h"
 #include "phase/species/species_cache.h"
 #include "phase/species/table_file.h"
 
@@ -31,8 +33,11 @@ Population population_of(const Recipe& recipe) {
 
 ScatteringTable compute_table(const Recipe& recipe, const std::function<void(double)>& progress) {
   if (recipe.type == "table") return read_table_file(recipe.file).table;
+  if (recipe.is_oriented())
+    throw bad_input("orientation.type", "'" + recipe.crystal.orientation.type + "'", "a table by scattering angle needs 'random'");
+  if (recipe.is_crystal()) return tabulate_random_crystals(crystal_settings_of(recipe), progress);
   if (!recipe.is_sphere())
-    throw bad_input("type", "'" + recipe.type + "'", "a recipe with a table expected", "Use mie, rain or table");
+    throw bad_input("type", "'" + recipe.type + "'", "a recipe with a table expected", "Use mie, rain, crystal or table");
   const Population population = population_of(recipe);
   return recipe.optics == "geometric" ? tabulate_rays(population) : tabulate(population, progress);
 }
@@ -44,7 +49,7 @@ ScatteringTable table_of(const Recipe& recipe, const SpeciesOptions& options) {
       if (options.log) options.log(warning);
     return std::move(file.table);
   }
-  if (!recipe.is_sphere()) return compute_table(recipe);
+  if (!recipe.is_sphere() && (!recipe.is_crystal() || recipe.is_oriented())) return compute_table(recipe);
   const std::string id = recipe_id(recipe);
   return SpeciesCache(options.cache_folder, options.log).find_or_make(id, [&] {
     if (options.log)
