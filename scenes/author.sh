@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Authors the media of the scenes in this folder. Usage: scenes/author.sh ARCUS NAME (rain_shower | cumulus | fogbow | glory | corona | slab)
+# Authors the media of the scenes in this folder. Usage: scenes/author.sh ARCUS NAME (rain_shower | cumulus | fogbow | glory | corona | halo_22 | slab)
 set -euo pipefail
 arcus=$(realpath "${1:?usage: author.sh ARCUS NAME}")
 cd "$(dirname "${BASH_SOURCE[0]}")"
@@ -22,8 +22,12 @@ case "${2:?usage: author.sh ARCUS NAME}" in
   corona)
     "$arcus" author cloud -o corona.vdb --kind stratocumulus --centre-m 0,4300,0 --size-m 4000 --base-m 3000 --depth-m 120 --cell-m 500 \
       --cover 0.9 --drops-per-cm3 250 --liquid-gradient-g-per-m3-km 1.2 --adiabatic-share 0.5 --variance 0.02 --voxel-m 10 --detail 0.5 ;;
+  halo_22)
+    # Seen from below as wide as the sky: a sheet so large that its edge is near the horizon.
+    "$arcus" author box -o halo_22.vdb --name cirrostratus --optical-depth 0.7 --centre-m 0,0,8500 --size-m 200000,200000,800 --voxels 4,4,4 \
+      --phase-type crystal --phase-habit prism --phase-orientation-type random --phase-size-um 200 ;;
   slab)
     "$arcus" author box -o slab.vdb --name layer --optical-depth 5 --centre-m 0,0,0 --size-m 100000,100000,1 --voxels 4,4,4 \
       --phase-type hg --phase-g 0.85 ;;
-  *) echo "author.sh: no medium for '$2'; known: rain_shower, cumulus, fogbow, glory, corona, slab" >&2; exit 2 ;;
+  *) echo "author.sh: no medium for '$2'; known: rain_shower, cumulus, fogbow, glory, corona, halo_22, slab" >&2; exit 2 ;;
 esac

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -39,7 +40,7 @@ Json forward_of(const media::GridFacts& grid, const std::string& where, const st
   for (const auto& [name, value] : grid.metadata) {
     if (name != "arcus_phase") continue;
     const phase::Recipe recipe = phase::recipe_from_text(value, where + ": arcus_phase");
-    if (!recipe.is_sphere()) return 0.0;
+    if (!recipe.is_sphere() && !recipe.is_crystal()) return 0.0;
     const std::string path = phase::SpeciesCache(cache_folder).path_of(phase::recipe_id(recipe));
     if (!std::filesystem::exists(path)) return nullptr;
     const phase::ScatteringTable table = phase::read_species_file(path).table;
@@ -153,6 +154,7 @@ Json vdb_facts(const std::string& path, const std::string& cache_folder, const s
 Json table_facts(const std::string& path) {
   const phase::SpeciesFile file = phase::read_species_file(path);
   const phase::ScatteringTable& table = file.table;
+  const auto [least_forward, most_forward] = std::minmax_element(table.forward_fraction.begin(), table.forward_fraction.end());
   return {{"file", path},
           {"sizes", table.size_um.size()},
           {"size_um", {table.size_um.front(), table.size_um.back()}},
@@ -160,6 +162,7 @@ Json table_facts(const std::string& path) {
           {"wavelength_nm", {table.wavelength_nm.front(), table.wavelength_nm.back()}},
           {"scattering_angles", table.scattering_angle_deg.size()},
           {"forward_angle_deg", table.forward_angle_deg},
+          {"forward_fraction", {*least_forward, *most_forward}},
           {"normalisation_error", table.normalisation_error},
           {"angle_error", table.angle_error},
           {"recipe_id", file.recipe_id},

@@ -73,7 +73,7 @@ void run_eval(const EvalCommand& command) {
   const phase::Recipe recipe = phase::recipe_from_file(command.recipe);
   const std::vector<double> angle_deg = number_list(command.angles, "--angles-deg");
   double size_um = command.size_um;
-  if (size_um == 0 && recipe.is_sphere()) {
+  if (size_um == 0 && (recipe.is_sphere() || recipe.is_crystal())) {
     if (recipe.size_um.size() != 1)
       throw bad_input("--size-um", "nothing", "a size expected, because the recipe has several size nodes");
     size_um = recipe.size_um[0];
@@ -83,6 +83,7 @@ void run_eval(const EvalCommand& command) {
     std::cout << nlohmann::ordered_json{{"size_um", size_um}, {"wavelength_nm", command.wavelength_nm},
                                         {"extinction_cross_section_m2", row.extinction_m2},
                                         {"scattering_cross_section_m2", row.scattering_m2}, {"asymmetry", row.asymmetry},
+                                        {"forward_fraction", row.forward_fraction},
                                         {"scattering_angle_deg", angle_deg}, {"P11", row.p11}, {"P12", row.p12},
                                         {"P33", row.p33}, {"P34", row.p34}}.dump(1) << '\n';
     return;
@@ -139,7 +140,7 @@ void add_phase(CLI::App& program) {
     auto command = std::make_shared<EvalCommand>();
     CLI::App* app = phase->add_subcommand("eval", "The scattering matrix of a recipe, computed directly");
     app->add_option("RECIPE", command->recipe, "recipe file (TOML)")->required();
-    app->add_option("--size-um", command->size_um, "effective radius; may be left out where the recipe has one size");
+    app->add_option("--size-um", command->size_um, "effective radius, of crystals maximum dimension; may be left out where the recipe has one size");
     app->add_option("--wavelength-nm", command->wavelength_nm, "in vacuum")->capture_default_str();
     app->add_option("--angles-deg", command->angles, "0,90,180 or BEGIN:END:STEP")->capture_default_str();
     app->add_flag("--json", command->json, "JSON instead of CSV, with cross-sections and asymmetry");

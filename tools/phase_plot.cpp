@@ -38,6 +38,11 @@ void run(const PlotCommand& command) {
     settings.title = (recipe.material.empty() ? "sphere" : recipe.material) + ", " + recipe.distribution.type +
                      ", effective radius " + number_text(settings.size_um) + " µm";
   }
+  if (recipe.is_crystal()) {
+    if (settings.size_um == 0) settings.size_um = recipe.size_um[recipe.size_um.size() / 2];
+    recipe.size_um = {settings.size_um};
+    settings.title = recipe.crystal.name + ", " + number_text(settings.size_um) + " µm";
+  }
   settings.wavelength_nm = number_list(command.wavelengths, "--wavelengths-nm");
   settings.angle_deg = render::chart_angles_deg(command.from_deg, command.to_deg);
   settings.with_sun_disc = command.sun_radius_deg > 0;
@@ -61,7 +66,7 @@ void add_phase_plot(CLI::App& phase) {
   app->add_option("RECIPE", command->recipe, "recipe file (TOML)")->required();
   app->add_option("-o,--output", command->output, "OUT.png: curves, and strips of the colours in sunlight")->required();
   app->add_option("--polar", command->polar, "POLAR.png: the curves around the particle");
-  app->add_option("--size-um", command->size_um, "effective radius (default: the recipe's middle size node)")
+  app->add_option("--size-um", command->size_um, "effective radius, of crystals maximum dimension (default: the recipe's middle size node)")
       ->check(CLI::PositiveNumber);
   app->add_option("--wavelengths-nm", command->wavelengths, "a curve for each")->capture_default_str();
   app->add_option("--sun-radius-deg", command->sun_radius_deg, "of the disc that curves are averaged over; 0: a point")

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "phase/base/error.h"
+#include "phase/base/normal_quantile.h"
 #include "phase/base/units.h"
 #include "phase/crystal/silhouette_diffraction.h"
 #include "phase/optics/refractive_index.h"
@@ -13,16 +14,6 @@ namespace arcus::phase {
 namespace {
 
 constexpr int spread_shapes = 32;
-
-/// The number that a standard normal variable stays below with this probability; by halving.
-double normal_quantile(double probability) {
-  double low = -10, high = 10;
-  while (high - low > 1e-12) {
-    const double middle = 0.5 * (low + high);
-    (0.5 * std::erfc(-middle / std::sqrt(2.0)) < probability ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
 
 }  // namespace
 

@@ -24,7 +24,8 @@ struct SphereTableOptions {
   /// Radius of the sun's disc that sunlit values are averaged over [rad]; 0: none are made.
   double sun_angular_radius_rad = 0;
   /// Remove the forward lobe where the table declares a forward fraction. What is left is
-  /// renormalised to 1; the caller scales cross-sections by (1 − forward_fraction).
+  /// renormalised to 1; the caller scales cross-sections by (1 − forward_fraction). A forward
+  /// fraction that is in no p11 (forward_angle_deg = 0) is left out in either case.
   bool clip_forward_lobe = true;
   /// Nodes of the fine wavelength grid, at least 2; 0: as many as bring the error of linear
   /// interpolation below 0.2 %, between 41 and what largest_memory_bytes allows.

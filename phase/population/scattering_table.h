@@ -1,7 +1,7 @@
 #pragma once
 // What a population of particles does to light, as plain arrays over size, wavelength and scattering angle: the
-// memory image of the NetCDF file. Everything is the particles' own, complete scattering: forward lobe included,
-// no sun's disc.
+// memory image of the NetCDF file. Everything is the particles' own, complete scattering, without the sun's disc; only
+// what goes straight on, as light does through parallel faces of crystals, may be in the cross-sections alone.
 
 #include <cmath>
 #include <cstddef>
@@ -30,13 +30,15 @@ struct ScatteringTable {
   // [size][wavelength], wavelength fastest
   std::vector<double> extinction_cross_section_m2;  ///< mean of a particle, complete (diffraction included)
   std::vector<double> scattering_cross_section_m2;
-  std::vector<double> asymmetry;         ///< mean cosine of the scattering angle
-  std::vector<double> forward_fraction;  ///< share of the extinction that clip_forward removes; 0: lobe kept
+  std::vector<double> asymmetry;         ///< mean cosine of the scattering angle, of p11
+  std::vector<double> forward_fraction;  ///< share of the extinction that goes straight on, see forward_angle_deg; 0: none
 
-  // [size][wavelength][angle], angle fastest, 1/sr; sign of p12: physics of Bohren & Huffman, S12 = (|S2|² − |S1|²)/2
+  // [size][wavelength][angle], angle fastest, 1/sr; sign of p12: physics of Bohren & Huffman, S12 = (|S2|² − |S1|²)/2.
+  // Tables of crystals are traced with unpolarised light and know p11 and p12 only: their p33 and p34 are 0, everywhere.
   std::vector<float> p11, p12, p33, p34;
 
-  /// Inside this angle (a node) the forward lobe is clipped where forward_fraction > 0; 0: no lobe is removed.
+  /// How the forward fraction leaves p11. Above 0: p11 has the lobe, and clip_forward removes it inside this angle (a node).
+  /// 0: that light is in no p11, p12 or asymmetry, which are of the rest, but in both cross-sections.
   double forward_angle_deg = 0;
 
   // What is known about the table's own errors; kept as attributes of the file.

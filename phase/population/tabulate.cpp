@@ -7,7 +7,6 @@
 #include <atomic>
 #include <cassert>
 #include <cmath>
-#include <mutex>
 
 #include "phase/base/units.h"
 #include "phase/optics/refractive_index.h"
@@ -24,22 +23,6 @@ constexpr double tolerance = 0.0015, spacing_share = 0.85;
 constexpr std::size_t most_pilots = 6;
 /// Populations narrower than this keep the interference between rays of different orders that large drops leave out.
 constexpr double least_width_for_rays = 0.01;
-
-/// Counts what is done and tells it, one thread at a time.
-class Work {
- public:
-  Work(const Progress& progress, double whole) : progress_(progress), whole_(whole) {}
-  void done(double amount) {
-    const std::lock_guard guard(mutex_);
-    done_ += amount;
-    if (progress_) progress_(std::min(1.0, done_ / whole_));
-  }
-
- private:
-  const Progress& progress_;
-  double whole_, done_ = 0;
-  std::mutex mutex_;
-};
 
 std::vector<Sizes> sizes_of(const Population& p) {
   std::vector<Sizes> sizes;

@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "phase/population/progress.h"
 #include "phase/population/scattering_table.h"
 #include "phase/population/sizes.h"
 
@@ -25,9 +26,6 @@ struct Population {
 inline constexpr double least_lobeless_um = 50;
 /// Where the lobe is clipped [degrees]: just outside of the sun's disc, so that aureoles outside of it remain.
 inline constexpr double lobe_angle_deg = 0.5;
-
-/// Share done, from 0 to 1; called from one thread at a time.
-using Progress = std::function<void(double)>;
 
 /// The table by wave optics. Relative error of p11 between its angle nodes below 0.2 %, see angle_error of the table.
 /// Runs on all cores; the result does not depend on their number. Throws bad_input for what the solvers do not take.

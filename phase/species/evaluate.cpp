@@ -7,6 +7,7 @@
 #include "phase/population/average.h"
 #include "phase/population/sizes.h"
 #include "phase/settings/number_text.h"
+#include "phase/species/make_species.h"
 
 namespace arcus::phase {
 namespace {
@@ -61,6 +62,30 @@ MatrixRow spheres(const Recipe& recipe, double size_um, double wavelength_nm, st
   return row;
 }
 
+MatrixRow crystals(const Recipe& recipe, double size_um, double wavelength_nm, std::span<const double> angle_deg) {
+  Recipe single = recipe;
+  single.size_um = {size_um};
+  single.wavelength_nm = {wavelength_nm};
+  const ScatteringTable table = compute_table(single);
+  const std::vector<double>& nodes = table.scattering_angle_deg;
+  MatrixRow row;
+  row.extinction_m2 = table.extinction_cross_section_m2[0];
+  row.scattering_m2 = table.scattering_cross_section_m2[0];
+  row.asymmetry = table.asymmetry[0];
+  row.forward_fraction = table.forward_fraction[0];
+  for (const double degrees : angle_deg) {
+    const auto upper = static_cast<std::size_t>(std::upper_bound(nodes.begin() + 1, nodes.end() - 1, degrees) - nodes.begin());
+    const double s0 = sin2_half_deg(nodes[upper - 1]), s1 = sin2_half_deg(nodes[upper]);
+    const double share = (sin2_half_deg(degrees) - s0) / (s1 - s0);
+    const auto at = [&](const std::vector<float>& values) { return values[upper - 1] + share * (values[upper] - values[upper - 1]); };
+    row.p11.push_back(at(table.p11));
+    row.p12.push_back(at(table.p12));
+  }
+  row.p33.assign(row.p11.size(), 0);
+  row.p34 = row.p33;
+  return row;
+}
+
 }  // namespace
 
 MatrixRow evaluate_recipe(const Recipe& recipe, double size_um, double wavelength_nm,
@@ -72,6 +97,7 @@ MatrixRow evaluate_recipe(const Recipe& recipe, double size_um, double wavelengt
   if (recipe.type == "isotropic") return closed_form(Isotropic(), angle_deg);
   if (recipe.type == "rayleigh") return rayleigh(recipe.depolarisation, angle_deg);
   if (recipe.is_sphere()) return spheres(recipe, size_um, wavelength_nm, angle_deg);
+  if (recipe.is_crystal()) return crystals(recipe, size_um, wavelength_nm, angle_deg);
   throw bad_input("recipe", "type '" + recipe.type + "'", "a recipe whose functions are computed expected");
 }
 

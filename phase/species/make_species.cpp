@@ -1,10 +1,15 @@
 #include "phase/species/make_species.h"
 
+#include <cmath>
 #include <utility>
 
 #include "phase/base/error.h"
+#include "phase/base/units.h"
 #include "phase/population/tabulate.h"
+#include "phase/population/tabulate_crystals.h"
 #include "phase/settings/toml_text.h"
+#include "phase/species/crystal_recipe.h"
+#include "phase/species/oriented_file.h"
 #include "phase/species/species_cache.h"
 #include "phase/species/table_file.h"
 
@@ -27,12 +32,29 @@ Population population_of(const Recipe& recipe) {
   return p;
 }
 
+std::unique_ptr<const OrientedCrystals> oriented_crystals(const Recipe& recipe, const SpeciesOptions& options) {
+  CrystalTableSettings settings = crystal_settings_of(recipe);
+  if (options.sun_elevation_deg) {
+    // To 1e-9 degrees, so that turning it into radians and back leads to the same table.
+    const double radius_deg = std::round(degrees(options.sun_angular_radius_rad) * 1e9) / 1e9;
+    return std::make_unique<const OrientedCrystals>(settings, oriented_table_of(recipe, *options.sun_elevation_deg, radius_deg, options));
+  }
+  // Without a sun nobody looks at the map, but extinction is needed.
+  settings.rays = 1;
+  settings.map_step_deg = 5;
+  OrientedTable table = tabulate_oriented_crystals(settings, 0, 0);
+  return std::make_unique<const OrientedCrystals>(settings, std::move(table));
+}
+
 }  // namespace
 
 ScatteringTable compute_table(const Recipe& recipe, const std::function<void(double)>& progress) {
   if (recipe.type == "table") return read_table_file(recipe.file).table;
+  if (recipe.is_oriented())
+    throw bad_input("orientation.type", "'" + recipe.crystal.orientation.type + "'", "a table by scattering angle needs 'random'");
+  if (recipe.is_crystal()) return tabulate_random_crystals(crystal_settings_of(recipe), progress);
   if (!recipe.is_sphere())
-    throw bad_input("type", "'" + recipe.type + "'", "a recipe with a table expected", "Use mie, rain or table");
+    throw bad_input("type", "'" + recipe.type + "'", "a recipe with a table expected", "Use mie, rain, crystal or table");
   const Population population = population_of(recipe);
   return recipe.optics == "geometric" ? tabulate_rays(population) : tabulate(population, progress);
 }
@@ -44,7 +66,7 @@ ScatteringTable table_of(const Recipe& recipe, const SpeciesOptions& options) {
       if (options.log) options.log(warning);
     return std::move(file.table);
   }
-  if (!recipe.is_sphere()) return compute_table(recipe);
+  if (!recipe.is_sphere() && (!recipe.is_crystal() || recipe.is_oriented())) return compute_table(recipe);
   const std::string id = recipe_id(recipe);
   return SpeciesCache(options.cache_folder, options.log).find_or_make(id, [&] {
     if (options.log)
@@ -59,6 +81,7 @@ std::shared_ptr<const Species> make_species(const Recipe& recipe, const SpeciesO
   if (recipe.type == "hg") return std::make_shared<const Species>(PhaseFunction(HenyeyGreenstein(recipe.g)), 0.0);
   if (recipe.type == "rayleigh")
     return std::make_shared<const Species>(PhaseFunction(Rayleigh(recipe.depolarisation)), rayleigh_exponent);
+  if (recipe.is_oriented()) return std::make_shared<const Species>(oriented_crystals(recipe, options));
   SphereTableOptions lobes;
   lobes.sun_angular_radius_rad = options.sun_angular_radius_rad;
   return std::make_shared<const Species>(table_of(recipe, options), lobes);

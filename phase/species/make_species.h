@@ -28,7 +28,7 @@ struct SpeciesOptions {
 /// The species of a recipe. Throws bad_input for what cannot be computed, with the key that is wrong.
 std::shared_ptr<const Species> make_species(const Recipe& recipe, const SpeciesOptions& options);
 
-/// The table of a recipe of a type that has one (mie, rain, table): from the cache, or computed and kept.
+/// The table of a recipe of a type that has one (mie, rain, crystals that lie at random, table): from the cache, or computed and kept.
 ScatteringTable table_of(const Recipe& recipe, const SpeciesOptions& options);
 
 /// The same, computed; what a cache keeps and `arcus phase compute` writes.

@@ -81,7 +81,8 @@ Species::Species(ScatteringTable table, const SphereTableOptions& options)
     const Curve fraction = curve(table_.forward_fraction, size);
     for (int i = 0; i < wavelength_count_; ++i) {
       const double nm = first_wavelength_nm_ + (wavelengths_per_nm_ > 0 ? i / wavelengths_per_nm_ : 0);
-      const double f = options.clip_forward_lobe ? fraction(nm) : 0;
+      // What is in no p11 cannot be kept.
+      const double f = options.clip_forward_lobe || table_.forward_angle_deg == 0 ? fraction(nm) : 0;
       extinction_ratio_.push_back(static_cast<float>((1 - f) * extinction(nm) / extinction(reference_nm)));
       const double albedo = (scattering(nm) / extinction(nm) - f) / (1 - f);
       albedo_.push_back(static_cast<float>(std::clamp(albedo, 0.0, 1.0)));

@@ -2,8 +2,8 @@
 // The library's product: what a kind of particle does to light, by size and wavelength, ready for a renderer. How
 // much it stops and where that goes come from one recipe, so they cannot be paired wrongly.
 //
-// Where the recipe removes the forward lobe of large drops, everything here is about the rest: light in the lobe goes
-// on as if nothing were there.
+// Where the recipe removes the forward lobe of large drops, or what goes straight through crystals, everything here is about
+// the rest: that light goes on as if nothing were there.
 
 #include <memory>
 #include <string>

@@ -31,7 +31,7 @@ void for_each_cross_section(Table& t, const Action& action) {
          t.scattering_cross_section_m2);
   action(Variable{"asymmetry", "1", "mean cosine of the scattering angle"}, t.asymmetry);
   action(Variable{"forward_fraction", "1",
-                  "share of the extinction that goes straight on once the lobe inside forward_angle_deg is clipped"},
+                  "share of the extinction that goes straight on: the lobe of P11 inside forward_angle_deg, or, where that is 0, light that is in no P11"},
          t.forward_fraction);
 }
 
@@ -60,7 +60,8 @@ void write_species_file(const std::string& path, const SpeciesFile& file) {
   to.text("references", references);
   to.text("comment",
           "Between angle nodes the elements are linear in sin(theta/2)^2; so interpolated, P11 integrates to 1. "
-          "P22 = P11 and P44 = P33. Forward lobe included, no disc of the sun.");
+          "P22 = P11 and P44 = P33 for spheres; P33 and P34 of crystals are unknown and 0. The forward lobe is included where "
+          "forward_angle_deg is above 0; where it is 0, P11 is of what does not go straight on. No disc of the sun.");
   to.number("forward_angle_deg", t.forward_angle_deg);
   to.number("normalisation_error", t.normalisation_error);
   to.number("angle_error", t.angle_error);

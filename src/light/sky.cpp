@@ -6,14 +6,16 @@ void list_keys(Keys& keys, SkySettings& sky) {
   keys.choice("type", sky.type, {"none", "constant"}, "what surrounds the scene");
   if (keys.only_if(sky.type == "constant", "type = constant")) {
     keys.number("radiance", sky.radiance, at_least(0), "the same in all directions, at 550 nm [W m-2 sr-1 nm-1]");
-    keys.choice("spectrum", sky.spectrum, {"flat", "sun"},
-                "flat: the same at every wavelength; sun: in proportion to the sun's, as light from grey clouds");
+    keys.choice("spectrum", sky.spectrum, {"flat", "sun", "rayleigh"},
+                "flat: the same at every wavelength; sun: in proportion to the sun's, as light from grey clouds; rayleigh: the "
+                "sun's times the inverse fourth power of the wavelength, a plain blue");
   }
 }
 
 Sky::Sky(const SkySettings& settings, const Curve& sun_irradiance)
     : radiance_(settings.type == "constant" ? static_cast<float>(settings.radiance) : 0.0f),
-      is_flat_(settings.spectrum == "flat") {
+      is_flat_(settings.spectrum == "flat"),
+      is_blue_(settings.spectrum == "rayleigh") {
   if (is_flat_) return;
   std::vector<double> values = sun_irradiance.y();
   const double at_550 = sun_irradiance(550);
@@ -24,7 +26,10 @@ Sky::Sky(const SkySettings& settings, const Curve& sun_irradiance)
 Spectrum Sky::radiance(const Vec3&, const Wavelengths& wavelengths) const {
   if (is_flat_ || radiance_ == 0) return Spectrum::filled(radiance_);
   Spectrum result;
-  for (int i = 0; i < wavelength_count; ++i) result[i] = radiance_ * static_cast<float>(relative_(wavelengths[i]));
+  for (int i = 0; i < wavelength_count; ++i) {
+    const double ratio = 550.0 / wavelengths[i];
+    result[i] = radiance_ * static_cast<float>(relative_(wavelengths[i]) * (is_blue_ ? ratio * ratio * ratio * ratio : 1));
+  }
   return result;
 }
 

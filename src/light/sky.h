@@ -14,13 +14,13 @@ namespace arcus::render {
 struct SkySettings {
   std::string type = "none";  ///< none | constant
   double radiance = 0.1;      ///< of the constant sky, at 550 nm and with a flat spectrum everywhere [W m-2 sr-1 nm-1]
-  std::string spectrum = "flat";  ///< flat: the same at every wavelength | sun: in proportion to the sun's
+  std::string spectrum = "flat";  ///< flat | sun: in proportion to the sun's | rayleigh: that times λ⁻⁴
 };
 void list_keys(Keys& keys, SkySettings& sky);
 
 class Sky {
  public:
-  /// sun_irradiance: the sun's spectrum, for a sky of its colour; a sun without light at 550 nm makes that black.
+  /// sun_irradiance: the sun's spectrum, for skies of its colour; a sun without light at 550 nm makes that black.
   Sky(const SkySettings& settings, const Curve& sun_irradiance);
   /// Radiance from a direction (unit, from the scene) [W m-2 sr-1 nm-1].
   Spectrum radiance(const Vec3& direction, const Wavelengths& wavelengths) const;
@@ -28,7 +28,7 @@ class Sky {
  private:
   float radiance_;
   Curve relative_;  // to 550 nm; empty: flat
-  bool is_flat_;
+  bool is_flat_, is_blue_;
 };
 
 }  // namespace arcus::render

@@ -135,10 +135,42 @@ expect 2 'cut.exr' "$ARCUS" profile cut.exr
 expect 2 'cut.exr' "$ARCUS" compare good.exr cut.exr
 expect 2 'around' "$ARCUS" profile good.exr --around moon
 
+# Recipes of crystals: values that make none, and shapes at the ends of what does.
+crystal() {  # crystal LINE...: a small recipe of prisms that lie at random, with lines added
+  { printf 'type = "crystal"\nhabit = "prism"\nwavelength_nm = 550\nrays_million = 0.02\n'
+    printf '%s\n' "$@"; } >ice.toml
+}
+crystal 'size_um = -1'
+expect 2 'ice.toml:5:1: size_um' "$ARCUS" phase compute ice.toml -o ice.nc
+crystal 'aspect_ratio = -2'
+expect 2 'aspect_ratio' "$ARCUS" phase compute ice.toml -o ice.nc
+crystal 'aspect_ratio = 0'
+expect 2 'aspect_ratio' "$ARCUS" phase compute ice.toml -o ice.nc
+crystal 'size_spread = 3'
+expect 2 'size_spread' "$ARCUS" phase compute ice.toml -o ice.nc
+crystal 'upper_pyramid.height = 2'
+expect 2 'upper_pyramid.height' "$ARCUS" phase compute ice.toml -o ice.nc
+crystal 'orientation = { type = "plate", tilt_deg = nan }'
+expect 2 'tilt_deg' "$ARCUS" phase compute ice.toml -o ice.nc
+crystal 'orientation = { type = "sideways" }'
+expect 2 "orientation.type.*'sideways'" "$ARCUS" phase compute ice.toml -o ice.nc
+crystal 'material = { n = 0.9, k = 0 }'
+expect 2 'index of 0.9.*above 1' "$ARCUS" phase compute ice.toml -o ice.nc
+printf 'type = "crystal"\nhabit = "prism"\nrays_million = 0\n' >ice.toml
+expect 2 'rays_million: 0 found' "$ARCUS" phase compute ice.toml -o ice.nc
+absent ice.nc
+for line in 'aspect_ratio = 1e-4' 'aspect_ratio = 1e4' 'upper_pyramid = { height = 1 }' 'size_um = 10000' 'size_um = [1, 10000]'; do
+  crystal "$line"
+  must "$ARCUS" phase eval ice.toml --size-um 100 --angles-deg 0,22,180
+  must "$ARCUS" phase compute ice.toml -o ice.nc
+  must "$ARCUS" info ice.nc
+done
+rm -f ice.nc
+
 # A damaged table in the cache is computed again, with a warning.
 printf 'type = "mie"\nsize_um = 2\nradii = 200\nwavelength_nm = { min = 500, max = 600, nodes = 2 }\n' >small.toml
 must "$ARCUS" phase compute small.toml
-table=$(find cache -name '*.nc')
+table=$(find cache -name '*.nc' -newer small.toml)
 [ -n "$table" ] || complain "no table in the cache"
 cp "$table" whole.nc
 for offset in 5000 $(($(stat -c %s "$table") / 2)); do
