@@ -10,7 +10,7 @@ if [ "${2:-}" = --check ]; then
   trap 'rm -rf "$folder"' EXIT
 fi
 mkdir -p "$folder"
-for kind in scene recipe author-rain author-cloud author-fog author-box author-field; do
+for kind in scene recipe author-rain author-cloud author-cirrus author-diamond-dust author-fog author-box author-field; do
   "$arcus" reference --kind "$kind" >"$folder/${kind//-/_}.md"
   "$arcus" reference --kind "$kind" --schema >"$folder/${kind//-/_}.schema.json"
 done

@@ -7,7 +7,9 @@
 #include <memory>
 
 #include "media/author/box.h"
+#include "media/author/cirrus.h"
 #include "media/author/cloud.h"
+#include "media/author/diamond_dust.h"
 #include "media/author/field.h"
 #include "media/author/fill.h"
 #include "media/author/fog.h"
@@ -90,6 +92,31 @@ void author_fog(const AuthorCommand& command, const media::FogSettings& settings
   save_droplets(command, media::author_fog(settings));
 }
 
+/// Writes the species of ice into one file and says what they hold.
+void save_ice(const AuthorCommand& command, media::AuthoredIce ice) {
+  std::vector<media::NewGrid> grids;
+  std::string names;
+  for (media::NewSpecies& species : ice.species) {
+    names += (names.empty() ? "" : ", ") + species.name;
+    for (media::NewGrid& grid : media::grids_of(std::move(species))) grids.push_back(std::move(grid));
+  }
+  media::save_grids(command.output, grids);
+  if (command.quiet) return;
+  char text[300];
+  std::snprintf(text, sizeof text,
+                "%.3g t of ice, mean optical depth %.3g, extinction up to %.3g /m (diffraction included), maximum dimension %.3g to %.3g um", 1e-3 * ice.ice_kg,
+                ice.mean_optical_depth, ice.largest_extinction_per_m, ice.smallest_size_um, ice.largest_size_um);
+  std::cerr << command.output << ": " << text << ", species " << names << '\n';
+}
+
+void author_cirrus(const AuthorCommand& command, const media::CirrusSettings& settings) {
+  save_ice(command, media::author_cirrus(settings));
+}
+
+void author_diamond_dust(const AuthorCommand& command, const media::DiamondDustSettings& settings) {
+  save_ice(command, media::author_diamond_dust(settings));
+}
+
 void author_box(const AuthorCommand& command, const media::BoxSettings& settings) {
   const std::string folder = std::filesystem::path(command.settings_file).parent_path().string();
   media::save_grids(command.output, media::grids_of(media::author_box(settings, folder)));
@@ -112,6 +139,8 @@ void add_author(CLI::App& program) {
   add_kind<media::RainSettings>(*author, "rain", "A shower: a shaft of rain under a cloud base", author_rain);
   add_kind<media::CloudSettings>(*author, "cloud", "Water clouds: cumulus, stratocumulus, stratus", author_cloud);
   add_kind<media::FogSettings>(*author, "fog", "Radiation or advection fog", author_fog);
+  add_kind<media::CirrusSettings>(*author, "cirrus", "Clouds of ice with fall streaks: uncinus, fibratus, cirrostratus", author_cirrus);
+  add_kind<media::DiamondDustSettings>(*author, "diamond-dust", "Ice crystals in the air over the ground", author_diamond_dust);
   add_kind<media::BoxSettings>(*author, "box", "A homogeneous block", author_box);
   add_kind<media::FieldSettings>(*author, "field", "Numbers from elsewhere: raw, as text, or the water of a cloud model in NetCDF or LWC files", author_field);
 }

@@ -12,6 +12,7 @@
 #include <memory>
 
 #include "media/author/droplets.h"
+#include "media/author/ice_crystals.h"
 #include "media/grid/grid_facts.h"
 #include "media/grid/projections.h"
 #include "media/grid/stored_medium.h"
@@ -72,7 +73,30 @@ double water_kg(const media::StoredMedium& medium, const phase::Recipe& recipe) 
   return sum * volume_m3 * 1e-6 * water_kg_per_m3 / 0.75;
 }
 
-/// What only a species has: the range of sizes, the mass of water, and a picture where one is asked for.
+/// Ice of a species of crystals, from extinction and size.
+double ice_kg(const media::StoredMedium& medium, const phase::Recipe& recipe) {
+  const media::IceCrystals crystals(recipe.crystal);
+  double sum = 0;
+  media::for_each_voxel(*medium.grid, [&](const media::Coord&, const media::Voxel& voxel) {
+    const double size_um = medium.grid->has_size() ? voxel.size_um : medium.size_um;
+    sum += 1e-3 * voxel.extinction / crystals.extinction_per_m(1, size_um);
+  });
+  return sum * std::fabs(medium.world_from_index.determinant());
+}
+
+/// Those species of a file that share the voxels of the first, as habits of one cloud do: they are seen together.
+std::vector<const media::SparseGrid*> seen_together(const std::vector<media::StoredMedium>& stored) {
+  const Affine& map = stored.front().world_from_index;
+  std::vector<const media::SparseGrid*> grids;
+  for (const media::StoredMedium& medium : stored) {
+    const Affine difference = map.inverse() * medium.world_from_index, same;
+    if (length(difference.x - same.x) + length(difference.y - same.y) + length(difference.z - same.z) < 1e-5 && length(difference.origin) < 1e-3)
+      grids.push_back(medium.grid.get());
+  }
+  return grids;
+}
+
+/// What only a species has: the range of sizes, the mass of water or ice, and a picture where one is asked for.
 Json species_facts(const std::string& path, const std::string& png) {
   Json all = Json::array();
   const media::StoredMedia stored = media::read_media(path, "");
@@ -82,13 +106,14 @@ Json species_facts(const std::string& path, const std::string& png) {
     if (medium.is_species) {
       const phase::Recipe recipe = phase::recipe_from_text(medium.recipe, path + ": arcus_phase");
       if (recipe.is_sphere() && recipe.material == "water" && medium.largest_size_um > 0) facts["water_kg"] = water_kg(medium, recipe);
+      if (recipe.is_crystal() && recipe.material == "ice" && medium.largest_size_um > 0) facts["ice_kg"] = ice_kg(medium, recipe);
     }
     all.push_back(facts);
   }
   if (!png.empty()) {
     const Affine& map = stored.media.front().world_from_index;
     const Vec3 voxel_m(length(map.vector(Vec3(1, 0, 0))), length(map.vector(Vec3(0, 1, 0))), length(map.vector(Vec3(0, 0, 1))));
-    write_projections(png, media::projections(*stored.media.front().grid, voxel_m), voxel_m);
+    write_projections(png, media::projections(seen_together(stored.media), voxel_m), voxel_m);
   }
   return all;
 }

@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "media/author/box.h"
+#include "media/author/cirrus.h"
 #include "media/author/cloud.h"
+#include "media/author/diamond_dust.h"
 #include "media/author/field.h"
 #include "media/author/fog.h"
 #include "media/author/rain.h"
@@ -42,6 +44,8 @@ std::map<std::string, Reference> references() {
           {"recipe", reference_of<phase::Recipe>("Keys of a phase recipe")},
           {"author-rain", reference_of<media::RainSettings>("Keys of arcus author rain")},
           {"author-cloud", reference_of<media::CloudSettings>("Keys of arcus author cloud")},
+          {"author-cirrus", reference_of<media::CirrusSettings>("Keys of arcus author cirrus")},
+          {"author-diamond-dust", reference_of<media::DiamondDustSettings>("Keys of arcus author diamond-dust")},
           {"author-fog", reference_of<media::FogSettings>("Keys of arcus author fog")},
           {"author-box", reference_of<media::BoxSettings>("Keys of arcus author box")},
           {"author-field", reference_of<media::FieldSettings>("Keys of arcus author field")}};

@@ -25,7 +25,16 @@ void for_each_voxel(const SparseGrid& grid, const std::function<void(const Coord
 }
 
 std::array<Projection, 3> projections(const SparseGrid& grid, const Vec3& step_m) {
-  const IndexBox& box = grid.voxels();
+  return projections(std::vector<const SparseGrid*>{&grid}, step_m);
+}
+
+std::array<Projection, 3> projections(const std::vector<const SparseGrid*>& grids, const Vec3& step_m) {
+  IndexBox box;
+  for (const SparseGrid* grid : grids) {
+    if (grid->voxels().is_empty()) continue;
+    box.include(grid->voxels().low);
+    box.include(grid->voxels().high);
+  }
   const std::int64_t size[3] = {box.size(0), box.size(1), box.size(2)};
   constexpr int right[3] = {1, 0, 0}, up[3] = {2, 2, 1};
   std::array<Projection, 3> result;
@@ -36,7 +45,7 @@ std::array<Projection, 3> projections(const SparseGrid& grid, const Vec3& step_m
     p.height = static_cast<int>(size[up[axis]]);
     p.depth.assign(static_cast<std::size_t>(p.width) * static_cast<std::size_t>(p.height), 0.0);
   }
-  for_each_voxel(grid, [&](const Coord& c, const Voxel& voxel) {
+  const auto add = [&](const Coord& c, const Voxel& voxel) {
     const int at[3] = {c.x - box.low.x, c.y - box.low.y, c.z - box.low.z};
     for (int axis = 0; axis < 3; ++axis) {
       Projection& p = result[static_cast<std::size_t>(axis)];
@@ -45,7 +54,8 @@ std::array<Projection, 3> projections(const SparseGrid& grid, const Vec3& step_m
       p.depth[static_cast<std::size_t>(row) * static_cast<std::size_t>(p.width) + static_cast<std::size_t>(at[right[axis]])] +=
           voxel.extinction * step_m[axis];
     }
-  });
+  };
+  for (const SparseGrid* grid : grids) for_each_voxel(*grid, add);
   return result;
 }
 

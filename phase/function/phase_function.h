@@ -63,6 +63,9 @@ class PhaseFunction {
   /// A direction drawn as the first of the wavelengths would: its density there is value()[0].
   Draw draw(const Vec3& incoming, const Wavelengths& wavelengths, Random& random) const;
 
+  /// True: each wavelength has to be drawn for itself, because none knows how likely another's draw was.
+  bool parts_wavelengths() const { return std::holds_alternative<OrientedLobe>(kind_); }
+
   /// Whether a narrow part of the sphere may get most of the light, so that it pays to look there on purpose.
   bool is_peaked() const {
     if (const auto* function = std::get_if<HenyeyGreenstein>(&kind_)) return function->asymmetry() > 0.5;

@@ -58,6 +58,9 @@ struct VolumePath::Path {
   float seen_weight = 1;
   long long bounces = 0;
 
+  /// True where one wavelength alone is left, the hero.
+  bool is_alone() const { return density[1] == 0 && density[2] == 0 && density[3] == 0; }
+
   Spectrum contribution(const Spectrum& light) const { return weight * light / density.mean(); }
 
   void pass_null_collision(const media::Collision& collision) {
@@ -140,8 +143,7 @@ bool VolumePath::advance(Path& path, media::CollisionWalk& walk, const std::opti
     ++sample.work.tentative_collisions;
     if (sample.random.uniform() * collision.majorant_per_m < collision.extinction_per_m[0]) {
       if (path.bounces++ == max_bounces_) return false;
-      scatter(path, collision, sample);
-      return true;
+      return scatter(path, collision, sample);
     }
     path.pass_null_collision(collision);
   }
@@ -164,7 +166,7 @@ Spectrum VolumePath::escaped(const Path& path, const Sample& sample) const {
   return path.contribution(light);
 }
 
-void VolumePath::scatter(Path& path, const media::Collision& collision, Sample& sample) const {
+bool VolumePath::scatter(Path& path, const media::Collision& collision, Sample& sample) const {
   const Wavelengths& wavelengths = sample.wavelengths;
   Random& random = sample.random;
   ++sample.work.scatterings;
@@ -218,6 +220,10 @@ void VolumePath::scatter(Path& path, const media::Collision& collision, Sample& 
     }
   }
 
+  if (function.parts_wavelengths() && !path.is_alone()) {
+    part(path, collision, function, sample);
+    return false;
+  }
   const auto leave = [&](Path& leaving, const Vec3& outgoing, const Spectrum& value, const Spectrum& own) {
     const Density densities = density(outgoing, own);
     if (function.includes_sun_disc()) {
@@ -244,10 +250,32 @@ void VolumePath::scatter(Path& path, const media::Collision& collision, Sample& 
     const Vec3 outgoing = function.draw(sun.to_centre(), wavelengths, random).outgoing;
     const Spectrum value = function.value(incoming, outgoing, wavelengths);
     leave(path, outgoing, value, value);
-    return;
+    return true;
   }
   const phase::Draw draw = function.draw(incoming, wavelengths, random);
   leave(path, draw.outgoing, draw.value_per_sr, draw.density_per_sr);
+  return true;
+}
+
+void VolumePath::part(const Path& path, const media::Collision& collision, const phase::PhaseFunction& function, Sample& sample) const {
+  const Spectrum share = path.weight / (path.density.mean() * wavelength_count);
+  for (int j = 0; j < wavelength_count; ++j) {
+    if (!(share[j] > 0)) continue;
+    // The wavelength changes places with the hero, and back in what it brings.
+    Wavelengths wavelengths = sample.wavelengths;
+    std::swap(wavelengths.nm[0], wavelengths.nm[static_cast<std::size_t>(j)]);
+    Sample alone{wavelengths, sample.random, sample.work, scene_.sun.light(wavelengths), {}};
+    Path one = path;
+    const phase::Draw draw = function.draw(path.ray.direction, wavelengths, sample.random);
+    one.density = {1, 0, 0, 0};
+    one.weight = draw.value_per_sr * share[j];
+    one.sun_share = 0;
+    one.promise = 1;
+    one.ray = media::Ray{collision.position_m, draw.outgoing};
+    follow(one, alone);
+    std::swap(alone.total[0], alone.total[j]);
+    sample.total += alone.total;
+  }
 }
 
 void VolumePath::reflect(Path& path, const Hit& hit, Sample& sample) const {

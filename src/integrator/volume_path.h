@@ -52,7 +52,7 @@ class VolumePath {
   struct Path;
   /// What all parts of one estimate share.
   struct Sample {
-    const Wavelengths& wavelengths;
+    Wavelengths wavelengths;
     Random& random;
     Work& work;
     SunLight sunlight;
@@ -66,9 +66,11 @@ class VolumePath {
   bool pass(Path& path, const std::optional<Hit>& hit, Sample& sample) const;
   /// Light that arrives where the path has left the scene.
   Spectrum escaped(const Path& path, const Sample& sample) const;
-  /// Scatters in the medium: adds sunlight, turns the path.
-  void scatter(Path& path, const media::Collision& collision, Sample& sample) const;
-  /// Reflects from a surface: likewise.
+  /// Scatters in the medium: adds sunlight, turns the path. False where it ends.
+  bool scatter(Path& path, const media::Collision& collision, Sample& sample) const;
+  /// Goes on from a scattering with each wavelength by itself.
+  void part(const Path& path, const media::Collision& collision, const phase::PhaseFunction& function, Sample& sample) const;
+  /// Reflects from a surface: adds sunlight, turns the path.
   void reflect(Path& path, const Hit& hit, Sample& sample) const;
   /// Share of the sun's light that reaches a point from a direction [0 to 1].
   Spectrum sun_transmittance(const Vec3& position_m, const Vec3& to_sun, Sample& sample) const;

@@ -115,6 +115,18 @@ printf '[[medium]]\n' >text.lwc
 expect 2 'text.lwc:1' "$ARCUS" author field --file text.lwc -o les.vdb
 absent les.vdb
 
+# Clouds of ice.
+expect 2 'shares: 2 numbers found; one, or one for each of 3 habits' "$ARCUS" author cirrus --shares 1,2 -o ice.vdb
+expect 2 "habits.*'sphere'" "$ARCUS" author cirrus --habits plate,sphere -o ice.vdb
+expect 2 "'plate' twice" "$ARCUS" author cirrus --habits plate,plate -o ice.vdb
+expect 2 'top_m.*must be above base_m' "$ARCUS" author cirrus --top-m 6000 -o ice.vdb
+expect 2 'cell_depth_m: 3000 found; must be less than' "$ARCUS" author cirrus --cell-depth-m 3000 -o ice.vdb
+expect 2 'ground_temperature_c: .* C at 500 m found; below 0 C' "$ARCUS" author cirrus --base-m 500 -o ice.vdb
+expect 2 'at most 2e9 expected' "$ARCUS" author cirrus --voxel-m 1 -o ice.vdb
+expect 2 'number_per_l: 0 found; must be above 0' "$ARCUS" author diamond-dust --number-per-l 0 -o ice.vdb
+expect 2 'temperature_c: 5 found' "$ARCUS" author diamond-dust --temperature-c 5 -o ice.vdb
+absent ice.vdb
+
 # Outputs that cannot be written: exit 1, before any work.
 scene a.toml
 expect 1 'cannot write' "$ARCUS" render a.toml -o no_such_folder/a.exr

@@ -35,6 +35,18 @@ for kind in cumulus stratocumulus stratus; do
 done
 expect 0 'effective radius' "$ARCUS" author fog --size-m 200 --voxel-m 10 -o fog.vdb
 expect 0 'size_um = \[' "$ARCUS" info fog.vdb
+# Ice: each habit a species of its own in one file, all with the mass that the author tells.
+for kind in uncinus fibratus cirrostratus; do
+  expect 0 'species cirrus_plate, cirrus_column, cirrus_prism' "$ARCUS" author cirrus --kind "$kind" --size-m 5000 --voxel-m 250 -o cirrus.vdb
+done
+"$ARCUS" author cirrus --size-m 6000 --voxel-m 200 --cover 0.5 --habits plate,column --shares 0.6,0.4 -o cirrus.vdb 2>said.txt
+tonnes=$(sed -n 's/^cirrus.vdb: \([0-9.e+]*\) t of ice.*/\1/p' said.txt)
+kilograms=$("$ARCUS" info cirrus.vdb --png views.png | sed -n 's/^ice_kg: //p' | awk '{ sum += $1 } END { print sum }')
+check "author and info tell the same mass of ice: $tonnes t, $kilograms kg" awk -v t="$tonnes" -v kg="$kilograms" 'BEGIN { exit !(t > 0 && kg / t / 1000 > 0.99 && kg / t / 1000 < 1.01) }'
+expect 0 'cirrus_column.size' "$ARCUS" info cirrus.vdb
+expect 0 'habit = "plate"' "$ARCUS" info cirrus.vdb
+expect 0 'optical depth 0.2,' "$ARCUS" author diamond-dust --optical-depth 0.2 --size-m 400 --voxel-m 20 -o dust.vdb
+expect 0 'medium: diamond_dust_plate' "$ARCUS" info dust.vdb
 expect 0 'Usage' "$ARCUS" author rain --help
 printf '0,0,0,0.5\n1,0,0,0.25\n0,0,2,0.125\n' >points.csv
 must "$ARCUS" author field --file points.csv -o field.vdb

@@ -28,6 +28,15 @@ TEST(Projections, SumColumnsInMetres) {
   EXPECT_NEAR(along_z.depth[0], 4 * (2 * (1000 - 3 + 40) + 1100), 1e-6);
 }
 
+TEST(Projections, OfSeveralGridsAddUp) {
+  const SparseGrid first = ramp(), second = make_sparse_grid({{20, 3, 5}, {20, 3, 5}}, false, [](const Coord&) { return Voxel{7, 0}; });
+  const auto [along_x, along_y, along_z] = projections({&first, &second}, Vec3(2, 3, 4));
+  EXPECT_EQ(along_y.width, 24);
+  EXPECT_NEAR(along_y.depth.back(), 3 * 7, 1e-6);  // z = 5, x = 20
+  EXPECT_NEAR(along_x.depth[0], 2 * (13 * (1000 + 20 + 600) + 39), 1e-6);
+  EXPECT_NEAR(along_z.depth[1 * 24 + 23], 4 * 7, 1e-6);  // y = 3, x = 20
+}
+
 TEST(Projections, EveryVoxelIsVisitedOnce) {
   int voxels = 0;
   double sum = 0;
