@@ -148,17 +148,55 @@ double add_rays(const CrystalPopulation& crystals, const CrystalWave& wave, cons
   return sent;
 }
 
-RayAccount account_of(const CrystalPopulation& crystals, const CrystalWave& wave, const MapOptions& options, double sine_elevation,
-                      int rays, RandomColumns& random) {
-  CrystalShower shower(crystals, wave, options.events);
-  const SizeSpread sizes(options.size_spread);
+namespace {
+
+VectorColumns parallel_light(double sine_elevation) {
   VectorColumns light;
-  Column factor, ignored;
   for (int i = 0; i < column_rays; ++i) {
     light.x[i] = static_cast<float>(-std::sqrt(std::max(0.0, 1 - sine_elevation * sine_elevation)));
     light.y[i] = 0;
     light.z[i] = static_cast<float>(-sine_elevation);
   }
+  return light;
+}
+
+}  // namespace
+
+int sufficient_events(const CrystalPopulation& crystals, const CrystalWave& wave, double sine_elevation) {
+  constexpr int most = 48, batches = 64;
+  constexpr double left = 0.003;
+  CrystalShower shower(crystals, wave, most);
+  RandomColumns random(0x6576656e7473, 0, 0);
+  const VectorColumns light = parallel_light(sine_elevation);
+  Column as_they_are;
+  std::fill_n(as_they_are.values, column_rays, 1.0f);
+  double whole = 0, after[most + 1] = {};  // what leaves at that event
+  Column straight{}, ignored;
+  for (int sent = 0; sent < batches; ++sent) {
+    shower.trace(light, as_they_are, random);
+    const CrystalBatch& batch = shower.batch();
+    for (int event = 0; event <= most; ++event) {
+      weigh(shower, event, true, ignored, straight);
+      for (int i = 0; i < column_rays; ++i)
+        after[event] += batch.column(event, CrystalBatch::i)[static_cast<std::size_t>(i)] * batch.projected_area(i);
+    }
+    for (int i = 0; i < column_rays; ++i) whole += batch.projected_area(i) * (1 - batch.absorbed(i));
+  }
+  double gone = 0, deviated = whole;
+  for (const float s : straight.values) deviated -= s;
+  for (int event = 0; event < most; ++event) {
+    gone += after[event];
+    if (whole - gone < left * deviated) return event;
+  }
+  return most;
+}
+
+RayAccount account_of(const CrystalPopulation& crystals, const CrystalWave& wave, const MapOptions& options, double sine_elevation,
+                      int rays, RandomColumns& random) {
+  CrystalShower shower(crystals, wave, options.events);
+  const SizeSpread sizes(options.size_spread);
+  const VectorColumns light = parallel_light(sine_elevation);
+  Column factor, ignored;
   RayAccount account;
   const int batches = (rays + column_rays - 1) / column_rays;
   for (int sent = 0; sent < batches; ++sent) {

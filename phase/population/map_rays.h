@@ -34,6 +34,9 @@ struct MapOptions {
 double add_rays(const CrystalPopulation& crystals, const CrystalWave& wave, const MapOptions& options, const SunLight& sun,
                 const SkyGrid& grid, double rays, RandomColumns& random, std::vector<MapCell>& cells, RayAccount& account);
 
+/// Faces met from inside after which light of that direction has left but for 0.3 % of what does not go straight on; at most 48.
+int sufficient_events(const CrystalPopulation& crystals, const CrystalWave& wave, double sine_elevation);
+
 /// What becomes of light whose direction has that sine of elevation.
 RayAccount account_of(const CrystalPopulation& crystals, const CrystalWave& wave, const MapOptions& options, double sine_elevation,
                       int rays, RandomColumns& random);

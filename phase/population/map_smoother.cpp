@@ -16,6 +16,8 @@ constexpr std::array half_widths{0, 1, 2, 3, 4, 6, 8, 11, 16, 23, 32, 45, 64, 91
 constexpr double largest_half_width_deg = 8;
 /// Intervals of so many standard errors to both sides are asked whether they meet.
 constexpr double confidence = 2.0;
+/// From so many deposits, counted as equally heavy ones, it is seen how heavy they are.
+constexpr double usual_deposits = 16;
 
 /// Sums over rectangles of cells of the whole sky, from those of its half.
 class AreaSums {
@@ -103,12 +105,14 @@ void MapSmoother::choose_levels(std::span<const float> light, std::span<const fl
     const Windows windows(grid_, band_sr_, row);
     for (int column = 0; column <= steps; ++column) {
       // A cell that nothing fell into, or little, is not known to be dark: its error counts one more deposit, of the weight that is
-      // usual around.
+      // usual around, where enough fell to tell.
       double weight = 0;
-      for (int level = std::min(4, windows.count() - 1); level < windows.count() && !(weight > 0); ++level) {
+      for (int level = std::min(4, windows.count() - 1); level < windows.count(); ++level) {
         const Window& w = windows[level];
-        if (const double sum = lights.around(w.first, w.end, column, w.reach); sum > 0)
-          weight = std::max(0.0, all_squares.around(w.first, w.end, column, w.reach)) / sum;
+        const double sum = lights.around(w.first, w.end, column, w.reach);
+        const double square = std::max(0.0, all_squares.around(w.first, w.end, column, w.reach));
+        if (sum > 0) weight = square / sum;
+        if (sum * sum > usual_deposits * square) break;
       }
       double low = 0, high = 1e300;
       int chosen = 0;
@@ -116,7 +120,11 @@ void MapSmoother::choose_levels(std::span<const float> light, std::span<const fl
         const Window& w = windows[level];
         const double sum = lights.around(w.first, w.end, column, w.reach), square = std::max(0.0, all_squares.around(w.first, w.end, column, w.reach));
         const double value = sum / w.sr, error = confidence * std::sqrt(square + weight * weight) / w.sr;
-        if (value - error > high || value + error < low) break;
+        if (value - error > high || value + error < low) {
+          // The one before has the most error that goes unnoticed.
+          chosen = std::max(0, chosen - 1);
+          break;
+        }
         low = std::max(low, value - error);
         high = std::min(high, value + error);
         chosen = level;

@@ -13,7 +13,10 @@
 namespace arcus::phase {
 namespace {
 
-constexpr int sine_nodes = 33, rays_by_sine = 32768;
+constexpr int sine_nodes = 65, absorbed_rays = 512;
+/// Light may go straight on after many turns inside flat crystals; a map of few rays needs no better account.
+constexpr int straight_events = 32;
+int straight_rays(double map_rays) { return static_cast<int>(std::clamp(map_rays / 64, 2048.0, 65536.0)); }
 constexpr std::uint64_t map_seed = 0x6d6170, account_seed = 0x616363;
 
 /// Tells how much is done, one thread at a time.
@@ -105,21 +108,68 @@ void lay_out(OrientedTable& table, const CrystalTableSettings& settings, const S
 
 constexpr double m2_from_um2 = 1e-12;
 
+/// What goes straight on changes little and evenly with the wavelength, so it is traced at three of them, with rays enough.
+class Straight {
+ public:
+  Straight(const CrystalPopulation& crystals, const std::vector<CrystalWave>& waves, const MapOptions& options,
+           const std::vector<double>& sines, double map_rays, std::size_t size)
+      : shadow_um2_(sines.size()) {
+    MapOptions longer = options;
+    longer.events = straight_events;
+    pilots_ = {0};
+    if (waves.size() > 2) pilots_.push_back(waves.size() / 2);
+    if (waves.size() > 1) pilots_.push_back(waves.size() - 1);
+    for (const std::size_t pilot : pilots_) n_.push_back(waves[pilot].n);
+    share_.resize(pilots_.size() * sines.size());
+    for_each(sines.size() * pilots_.size(), [&](std::size_t i) {
+      const std::size_t sine = i / pilots_.size(), pilot = i % pilots_.size();
+      // The same numbers at all wavelengths and sines: what they differ in is then physics.
+      RandomColumns random(account_seed, size, 0);
+      const RayAccount account = account_of(crystals, waves[pilots_[pilot]], longer, sines[sine], straight_rays(map_rays), random);
+      share_[i] = account.straight / account.shadow;
+      if (pilot == 0) shadow_um2_[sine] = account.shadow;
+    });
+  }
+  double shadow_um2(std::size_t sine) const { return shadow_um2_[sine]; }
+  /// Of the shadow: the parabola through the pilots, by the index.
+  double share(std::size_t sine, double n) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < n_.size(); ++i) {
+      double factor = share_[sine * n_.size() + i];
+      for (std::size_t k = 0; k < n_.size(); ++k)
+        if (k != i && n_[k] != n_[i]) factor *= (n - n_[k]) / (n_[i] - n_[k]);
+      sum += factor;
+    }
+    return distinct() ? std::clamp(sum, 0.0, 1.0) : share_[sine * n_.size()];
+  }
+
+ private:
+  /// False for an ice whose index is the same at two pilots: no parabola.
+  bool distinct() const {
+    for (std::size_t i = 1; i < n_.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k)
+        if (std::fabs(n_[i] - n_[k]) < 1e-6) return false;
+    return true;
+  }
+
+  std::vector<std::size_t> pilots_;
+  std::vector<double> n_, share_, shadow_um2_;  // share: [sine][pilot]
+};
+
 /// Extinction, what of it goes straight on, and the albedo of one row.
 void account_row(const CrystalPopulation& crystals, const CrystalWave& wave, const MapOptions& options, bool diffraction,
-                 std::size_t size, std::size_t wavelength, OrientedTable& table) {
+                 const Straight& straight, std::size_t size, std::size_t wavelength, OrientedTable& table) {
   const std::size_t row = table.row(size, wavelength);
   double stopped = 0, absorbed = 0, width_before = 0;
   const auto& sines = table.sine_elevation;
   for (std::size_t i = 0; i < sines.size(); ++i) {
-    // The same numbers at all wavelengths: what they differ in is then physics.
-    RandomColumns random(account_seed, size, static_cast<std::uint32_t>(i));
-    const RayAccount account = account_of(crystals, wave, options, sines[i], rays_by_sine, random);
-    const double extinction = (diffraction ? 2 : 1) * account.shadow;
-    double forward = options.keep_straight ? 0 : account.straight;
-    if (diffraction && !options.diffracted_light) forward += account.shadow;
+    const double shadow = straight.shadow_um2(i), extinction = (diffraction ? 2 : 1) * shadow;
+    double forward = options.keep_straight ? 0 : straight.share(i, wave.n) * shadow;
+    if (diffraction && !options.diffracted_light) forward += shadow;
     table.extinction_cross_section_m2[row * sines.size() + i] = m2_from_um2 * extinction;
     table.forward_fraction[row * sines.size() + i] = forward / extinction;
+    RandomColumns random(account_seed, size, 1);
+    const RayAccount account = account_of(crystals, wave, options, sines[i], absorbed_rays, random);
     // Directions are uniform in the sine; trapezoids.
     const double width_after = i + 1 < sines.size() ? sines[i + 1] - sines[i] : 0, width = 0.5 * (width_before + width_after);
     stopped += width * (extinction - forward);
@@ -146,7 +196,10 @@ OrientedTable tabulate_oriented_crystals(const CrystalTableSettings& settings, d
   for (std::size_t size = 0; size < settings.size_um.size(); ++size) {
     const CrystalPopulation crystals(settings.crystals, settings.size_um[size]);
     const MapOptions options = options_of(settings, crystals);
+    MapOptions map_options = options;
+    map_options.events = sufficient_events(crystals, settings.waves[waves / 2], std::sin(radians(sun_elevation_deg)));
     const double mean_square = std::exp(settings.size_spread * settings.size_spread);
+    const Straight straight(crystals, settings.waves, options, table.sine_elevation, settings.rays, size);
     std::vector<std::vector<float>> light(waves);  // by cell, a plane for each wavelength
     std::vector<double> scale(waves);
     SumInOrder all_light(waves, grid.size()), all_squares(waves, grid.size());
@@ -156,7 +209,7 @@ OrientedTable tabulate_oriented_crystals(const CrystalTableSettings& settings, d
       std::vector<MapCell> cells(grid.size());
       RandomColumns random(map_seed, wavelength, static_cast<std::uint32_t>(size));
       RayAccount account;
-      const double rays = add_rays(crystals, wave, options, sun, grid, settings.rays, random, cells, account);
+      const double rays = add_rays(crystals, wave, map_options, sun, grid, settings.rays, random, cells, account);
       scale[wavelength] = m2_from_um2 * mean_square / rays;
       std::vector<float> squares(grid.size());
       light[wavelength].resize(grid.size());
@@ -166,7 +219,7 @@ OrientedTable tabulate_oriented_crystals(const CrystalTableSettings& settings, d
       }
       all_light.add(wavelength, light[wavelength]);
       all_squares.add(wavelength, std::move(squares));
-      account_row(crystals, wave, options, settings.diffraction, size, wavelength, table);
+      account_row(crystals, wave, options, settings.diffraction, straight, size, wavelength, table);
       work.done(0.9);
     });
     const MapSmoother smoother(grid, all_light.sum(), all_squares.sum(), settings.map_noise);

@@ -12,6 +12,7 @@
 
 #include "media/tracking/collision_walk.h"
 #include "phase/base/random.h"
+#include "phase/function/phase_function.h"
 #include "src/integrator/sample_points.h"
 #include "src/integrator/sun_reach.h"
 #include "src/scene/scene.h"
