@@ -44,7 +44,7 @@ double on_lattice(double step) { return std::round(100 * std::exp2(0.5 * step));
 
 void list_keys(Keys& keys, IceMixtureSettings& mixture) {
   keys.choices("habits", mixture.habits, habit_words,
-               "shapes, and how they lie; each becomes a species NAME_HABIT. random_plate and random_column tumble, parry and lowitz are a column and a plate that lie so");
+               "shapes, and how they lie; each becomes a species NAME_HABIT. random_plate and random_column tumble, parry is a column with a side face up, lowitz a plate that spins about a diagonal");
   if (mixture.habits.empty()) keys.refuse("habits", "none", "at least one expected");
   for (std::size_t i = 1; i < mixture.habits.size(); ++i)
     if (std::find(mixture.habits.begin(), mixture.habits.begin() + static_cast<std::ptrdiff_t>(i), mixture.habits[i]) != mixture.habits.begin() + static_cast<std::ptrdiff_t>(i))
@@ -72,6 +72,8 @@ IceMixture::IceMixture(const IceMixtureSettings& settings) : settings_(settings)
     if (const double aspect_ratio = of(settings.aspect_ratio, i); aspect_ratio > 0) crystals.habit.aspect_ratio = aspect_ratio;
     crystals.aspect_spread = settings.aspect_spread;
     crystals.orientation.tilt_deg = of(settings.tilt_deg, i);
+    // Parry's crystals rock about their long axis as much as they tilt; Lowitz's spin about their diagonal all the way.
+    crystals.orientation.roll_deg = crystals.orientation.type == "lowitz" ? 180 : crystals.orientation.tilt_deg;
     parts_.push_back({settings.habits[i], crystals, IceCrystals(crystals), of(settings.shares, i) / sum, lean_of(crystals)});
   }
 }

@@ -240,6 +240,19 @@ TEST(Cirrus, RecipesHaveFewSizes) {
   EXPECT_EQ(phase::recipe_from_text(large.recipe(0, 20, 200), "").size_um.size(), 4u);
 }
 
+TEST(Cirrus, HabitsLieAsTheirWordsSay) {
+  const IceMixture mixture({.habits = {"plate", "random_plate", "parry", "lowitz"}, .tilt_deg = {2, 1, 0.5, 3}, .aspect_ratio = {0.05, 0, 0, 0}});
+  const auto& parts = mixture.parts();
+  EXPECT_EQ(parts[0].settings.orientation.type, "plate");
+  EXPECT_EQ(parts[0].settings.habit.aspect_ratio, 0.05);
+  EXPECT_EQ(parts[1].settings.orientation.type, "random");
+  EXPECT_EQ(parts[1].settings.habit.aspect_ratio, 0.1);
+  EXPECT_EQ(parts[2].settings.orientation.type, "parry");
+  EXPECT_EQ(parts[2].settings.orientation.roll_deg, 0.5);
+  EXPECT_EQ(parts[3].settings.orientation.roll_deg, 180);
+  EXPECT_EQ(phase::recipe_from_text(mixture.recipe(3, 200, 300), "").crystal.orientation.tilt_deg, 3);
+}
+
 TEST(Cirrus, IsTheSameForAnyNumberOfThreadsAndAnotherForAnotherSeed) {
   CirrusSettings settings = small_cirrus();
   const AuthoredIce many = author_cirrus(settings);
