@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cctype>
 
 #include "phase/base/error.h"
 #include "phase/settings/number_text.h"
@@ -107,6 +108,12 @@ class Adder : public Keys {
   std::vector<std::string> paths_;
 };
 
+/// An entry of a TOML array: words, which nobody quotes twice on a command line, become strings.
+std::string list_entry(const std::string& word) {
+  const bool is_word = !word.empty() && std::isalpha(static_cast<unsigned char>(word[0])) && word != "nan" && word != "inf";
+  return is_word ? '"' + word + '"' : word;
+}
+
 }  // namespace
 
 KeyOptions::KeyOptions(CLI::App& app, const KeyList& list)
@@ -119,9 +126,9 @@ std::vector<std::string> KeyOptions::assignments() const {
   std::vector<std::string> result;
   for (const auto& [key, words] : *values_) {
     if (words.empty()) continue;
+    const bool is_list = words.size() > 1 && !words[0].starts_with('[') && !words[0].starts_with('{');
     std::string text;
-    for (const std::string& word : words) text += (text.empty() ? "" : ",") + word;
-    const bool is_list = words.size() > 1 && text.front() != '[' && text.front() != '{';
+    for (const std::string& word : words) text += (text.empty() ? "" : ",") + (is_list ? list_entry(word) : word);
     result.push_back(key + "=" + (is_list ? "[" + text + "]" : text));
   }
   return result;

@@ -25,8 +25,8 @@ struct Kind {
   bool ends_inside;    ///< thins out towards the border of the domain
 };
 Kind kind_of(const CirrusSettings& s) {
-  Kind kind = s.kind == "uncinus"    ? Kind{0.15, 3500, 500, 0.6, 0.5, 0.2, true}
-              : s.kind == "fibratus" ? Kind{0.5, 4000, 250, 0.8, 0.2, 0.5, true}
+  Kind kind = s.kind == "uncinus"    ? Kind{0.12, 2500, 500, 0.6, 0.5, 0.4, true}
+              : s.kind == "fibratus" ? Kind{0.4, 3000, 250, 0.8, 0.2, 0.4, true}
                                      : Kind{1, 6000, 250, 0.2, 0.1, 0.8, false};
   if (s.cover > 0) kind.cover = s.cover;
   if (s.cell_m > 0) kind.cell_m = s.cell_m;
@@ -90,14 +90,15 @@ class Cirrus {
     const double strength = strength_of(start, lives);
     if (strength <= 0) return {};
     const double width = std::sqrt(strength);
-    double amount = smooth_step(width / edge), left = 1;
+    double amount = smooth_step(strength / edge), left = 1;
     if (p.z > cell_base_m_) {
       const double height = (p.z - cell_base_m_) / kind_.cell_depth_m;
-      const double billow = kind_.billows > 0 ? std::fabs(billows_.fractal(p * (2 / kind_.cell_depth_m), 4, 0.55)) : 0;
+      const double billow = kind_.billows > 0 ? std::fabs(billows_.fractal(p * (2 / kind_.cell_depth_m), 3, 0.55)) : 0;
       const double cut = kind_.billows * std::min(1.0, 2 * height) * (0.75 - 0.75 * std::min(billow, 1.6));
-      amount = smooth_step((width - height - cut) / edge);
+      amount *= smooth_step((width - height - cut) / edge);
     } else {
       // Weak streaks are gone first.
+      amount *= smooth_step(width / edge);
       const double reach = kind_.least_reach + (1 - kind_.least_reach) * width;
       left = smooth_step((reach - depth / (cell_base_m_ - s_.base_m)) / edge);
     }
@@ -111,7 +112,7 @@ class Cirrus {
   double fibres(const Vec3& start, double lives) const {
     if (kind_.contrast <= 0) return 1;
     const double along = dot(start, towards_), across = start.x * towards_.y - start.y * towards_.x;
-    const double value = fibres_.fractal(Vec3(along / 3, across, 0) * (1 / s_.fibre_m) + Vec3(0, 0, 2 * lives), 4, 0.6);
+    const double value = fibres_.fractal(Vec3(along / 3, across, 0) * (1 / s_.fibre_m) + Vec3(0, 0, 2 * lives), 3, 0.6);
     return std::exp(kind_.contrast * value - 0.5 * kind_.contrast * kind_.contrast);
   }
 
@@ -176,8 +177,8 @@ void list_keys(Keys& keys, CirrusSettings& cirrus) {
               "vertical, at 550 nm, mean over the domain; above 0 it decides how much ice there is");
   keys.number("length_over_width", cirrus.length_over_width, between(0.2, 10),
               "maximum dimension of the crystals over the mean width of such a temperature");
-  keys.number("cover", cirrus.cover, between(0, 1), "share of the domain under cells; 0: 0.15 for uncinus, 0.5 for fibratus, 1 for cirrostratus");
-  keys.number("cell_m", cirrus.cell_m, at_least(0), "distance between cells; 0: 3500 for uncinus, 4000 for fibratus; 6000 for cirrostratus with cover below 1");
+  keys.number("cover", cirrus.cover, between(0, 1), "share of the domain under cells; 0: 0.12 for uncinus, 0.4 for fibratus, 1 for cirrostratus");
+  keys.number("cell_m", cirrus.cell_m, at_least(0), "distance between cells; 0: 2500 for uncinus, 3000 for fibratus, 6000 for cirrostratus with cover below 1");
   keys.number("cell_depth_m", cirrus.cell_depth_m, at_least(0), "of the layer of cells below the top; 0: 500 for uncinus, 250 for the others");
   keys.number("cell_life_min", cirrus.cell_life_min, at_least(0), "how long a cell snows, which limits the length of streaks; 0: for ever");
   keys.number("shear_m_per_s_km", cirrus.shear_m_per_s_km, between(0, 50), "wind relative to the cells at 1 km below them; it grows evenly with depth");

@@ -24,14 +24,14 @@ struct CirrusSettings {
   double lapse_k_per_km = 6.5;       ///< how fast it gets colder with height
   double ice_factor = 1;             ///< ice water content over the mean of such a temperature
   double optical_depth = 0;          ///< vertical, mean over the domain; above 0 it decides how much ice there is
-  double length_over_width = 2;      ///< maximum dimension of the crystals over the mean width of such a temperature
+  double length_over_width = 2.5;     ///< maximum dimension of the crystals over the mean width of such a temperature
 
   // Cells and streaks.
   double cover = 0;                  ///< share of the domain under cells; 0: by kind
   double cell_m = 0;                 ///< distance between cells; 0: by kind
   double cell_depth_m = 0;           ///< of the layer of cells below the top; 0: by kind
-  double cell_life_min = 40;         ///< how long a cell snows; 0: for ever
-  double shear_m_per_s_km = 4;       ///< wind relative to the cells at 1 km below them; grows evenly
+  double cell_life_min = 120;        ///< how long a cell snows; 0: for ever
+  double shear_m_per_s_km = 2.5;      ///< wind relative to the cells at 1 km below them; grows evenly
   double shear_azimuth_deg = 270;    ///< compass direction to which it draws the streaks
   double shear_turn_deg = 25;        ///< by which it turns clockwise down to the base
   double fall_speed_m_per_s = 0;     ///< 0: that of the crystals

@@ -8,7 +8,7 @@ namespace arcus::media {
 double mean_ice_g_per_m3(double temperature_c);
 
 /// Mean effective size D = 326.3 + 12.42 T + 0.197 T² + 0.0012 T³ (S. C. Ou and K. N. Liou, Atmos. Res. 35, 127, 1995): 31 µm at -60 C and colder,
-/// 147 µm at -20 C and warmer. It is the width of columns; their length is about twice as much.
+/// 147 µm at -20 C and warmer. It is the width of columns; their length is two to three times as much.
 double mean_width_um(double temperature_c);
 
 /// Share of columns among plates and columns: plates grow from -9 to -40 C, columns above and below (C. Magono and C. W. Lee, J. Fac. Sci.

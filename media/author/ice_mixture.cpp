@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "media/author/fill.h"
@@ -33,6 +34,9 @@ int lean_of(const phase::CrystalSettings& crystals) {
 /// Element i of a list in which one number stands for all.
 double of(const std::vector<double>& list, std::size_t i) { return list.size() == 1 ? list[0] : list[i]; }
 
+// Thinner ice, by that in the thickest voxel, is hardly seen.
+constexpr float least_share_seen = 0.05f;
+
 /// Steps of √2 from 100 µm.
 double on_lattice(double step) { return std::round(100 * std::exp2(0.5 * step)); }
 
@@ -40,7 +44,7 @@ double on_lattice(double step) { return std::round(100 * std::exp2(0.5 * step));
 
 void list_keys(Keys& keys, IceMixtureSettings& mixture) {
   keys.choices("habits", mixture.habits, habit_words,
-               "shapes, and how they lie; each becomes a species NAME_HABIT. random_plate and random_column tumble, parry and lowitz are a column and a plate that lie so");
+               "shapes, and how they lie; each becomes a species NAME_HABIT. random_plate and random_column tumble, parry is a column with a side face up, lowitz a plate that spins about a diagonal");
   if (mixture.habits.empty()) keys.refuse("habits", "none", "at least one expected");
   for (std::size_t i = 1; i < mixture.habits.size(); ++i)
     if (std::find(mixture.habits.begin(), mixture.habits.begin() + static_cast<std::ptrdiff_t>(i), mixture.habits[i]) != mixture.habits.begin() + static_cast<std::ptrdiff_t>(i))
@@ -68,6 +72,8 @@ IceMixture::IceMixture(const IceMixtureSettings& settings) : settings_(settings)
     if (const double aspect_ratio = of(settings.aspect_ratio, i); aspect_ratio > 0) crystals.habit.aspect_ratio = aspect_ratio;
     crystals.aspect_spread = settings.aspect_spread;
     crystals.orientation.tilt_deg = of(settings.tilt_deg, i);
+    // Parry's crystals rock about their long axis as much as they tilt; Lowitz's spin about their diagonal all the way.
+    crystals.orientation.roll_deg = crystals.orientation.type == "lowitz" ? 180 : crystals.orientation.tilt_deg;
     parts_.push_back({settings.habits[i], crystals, IceCrystals(crystals), of(settings.shares, i) / sum, lean_of(crystals)});
   }
 }
@@ -143,6 +149,7 @@ void fill_part(const NewSpecies& ice, const IceMixture& mixture, std::size_t par
 }  // namespace
 
 AuthoredIce author_ice(const NewSpecies& ice, const IceMixture& mixture, const IceUse& use) {
+  const FilledRange range = range_of(ice);  // its extinction is ice
   const Affine& map = ice.world_from_index;
   const double volume_m3 = std::fabs(map.determinant());
   double ice_g = 0, extinction_m2 = 0, largest = 0;
@@ -159,7 +166,15 @@ AuthoredIce author_ice(const NewSpecies& ice, const IceMixture& mixture, const I
       largest = std::max(largest, extinction);
     }
   const double factor = use.optical_depth > 0 ? use.optical_depth * use.area_m2 / extinction_m2 : 1;
-  const FilledRange range = range_of(ice);
+  // Sizes of the last wisps need no phase functions of their own.
+  FilledRange seen;
+  seen.smallest_size_um = std::numeric_limits<float>::max();
+  for (std::size_t b = 0; b < ice.extinction.size(); ++b)
+    for (std::size_t i = 0; i < SparseGrid::brick_voxels; ++i) {
+      if (ice.extinction[b].values[i] < least_share_seen * range.largest_extinction_per_m) continue;
+      seen.smallest_size_um = std::min(seen.smallest_size_um, ice.size[b].values[i]);
+      seen.largest_size_um = std::max(seen.largest_size_um, ice.size[b].values[i]);
+    }
   AuthoredIce result;
   result.ice_kg = 1e-3 * factor * ice_g;
   result.mean_optical_depth = factor * extinction_m2 / use.area_m2;
@@ -171,7 +186,7 @@ AuthoredIce author_ice(const NewSpecies& ice, const IceMixture& mixture, const I
     species.name = use.name + "_" + mixture.parts()[i].habit;
     species.world_from_index = map;
     fill_part(ice, mixture, i, factor, use, species);
-    species.recipe = mixture.recipe(i, range.smallest_size_um, range.largest_size_um);
+    species.recipe = mixture.recipe(i, seen.smallest_size_um, seen.largest_size_um);
     species.phase_id = phase::recipe_id(phase::recipe_from_text(species.recipe, "recipe of the ice"));
     result.species.push_back(std::move(species));
   }
