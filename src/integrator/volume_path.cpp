@@ -264,7 +264,7 @@ void VolumePath::part(const Path& path, const media::Collision& collision, const
     // The wavelength changes places with the hero, and back in what it brings.
     Wavelengths wavelengths = sample.wavelengths;
     std::swap(wavelengths.nm[0], wavelengths.nm[static_cast<std::size_t>(j)]);
-    Sample alone{wavelengths, sample.random, sample.work, scene_.sun.light(wavelengths), {}};
+    Sample alone{wavelengths, sample.random, sample.work, sample.sunlight.with_first(j), {}};
     Path one = path;
     const phase::Draw draw = function.draw(path.ray.direction, wavelengths, sample.random);
     one.density = {1, 0, 0, 0};

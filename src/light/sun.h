@@ -32,6 +32,14 @@ Curve sun_irradiance(const SunSettings& sun, const std::string& folder);
 struct SunLight {
   Spectrum irradiance_w_per_m2_nm;           ///< on a surface that faces the sun
   std::array<Spectrum, 6> radiance_by_mu;    ///< radiance = Σ radiance_by_mu[k] mu^k, mu = √(1 − rho²) [W m-2 sr-1 nm-1]
+
+  /// The same where the first wavelength has changed places with another.
+  SunLight with_first(int j) const {
+    SunLight result = *this;
+    std::swap(result.irradiance_w_per_m2_nm[0], result.irradiance_w_per_m2_nm[j]);
+    for (Spectrum& part : result.radiance_by_mu) std::swap(part[0], part[j]);
+    return result;
+  }
 };
 
 class Sun {
