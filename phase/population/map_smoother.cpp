@@ -35,6 +35,13 @@ class AreaSums {
 
   /// Rows first to before end, columns within reach of `column` to both sides; all of a row if reach >= steps.
   double around(int first, int end, int column, int reach) const {
+    const double sum = any_around(first, end, column, reach);
+    // Differences of sums over half the sky: less is what rounding leaves of nothing.
+    return sum > 1e-12 * sums_.back() ? sum : 0;
+  }
+
+ private:
+  double any_around(int first, int end, int column, int reach) const {
     if (reach >= steps_) return 2 * strip(first, end, 0, steps_ + 1) - strip(first, end, 0, 1) - strip(first, end, steps_, steps_ + 1);
     const int low = column - reach, high = column + reach;
     double sum = strip(first, end, std::max(low, 0), std::min(high, steps_) + 1);
@@ -43,8 +50,6 @@ class AreaSums {
     if (high > steps_) sum += strip(first, end, 2 * steps_ - high, steps_);
     return sum;
   }
-
- private:
   double strip(int first, int end, int from, int to) const {
     const double *above = &sums_[static_cast<std::size_t>(end) * width_], *below = &sums_[static_cast<std::size_t>(first) * width_];
     return (above[to] - above[from]) - (below[to] - below[from]);
@@ -141,7 +146,7 @@ void MapSmoother::choose_levels(std::span<const float> light, std::span<const fl
       const int level = static_cast<int>(level_[at]);
       const Window& w = windows[level];
       const double sum = lights.around(w.first, w.end, column, w.reach), square = all_squares.around(w.first, w.end, column, w.reach);
-      error_[at] = sum > 0 ? static_cast<float>(std::sqrt(std::max(0.0, square)) / sum) : 1;
+      error_[at] = sum > 0 && square > 0 ? static_cast<float>(std::min(1.0, std::sqrt(square) / sum)) : 1;
     }
   });
 }
