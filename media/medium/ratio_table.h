@@ -35,9 +35,11 @@ class RatioTable {
   /// For light whose direction has this sine of elevation.
   static Columns columns(const Wavelengths& wavelengths, double sine_elevation) {
     Columns result = mean_columns(wavelengths);
-    const float at = std::min(static_cast<float>(std::fabs(sine_elevation)), 1.f) * (direction_nodes - 1);
-    result.direction = std::min(static_cast<int>(at), direction_nodes - 2);
-    result.direction_share = at - static_cast<float>(result.direction);
+    const float sine = std::min(static_cast<float>(std::fabs(sine_elevation)), 1.f);
+    const int node = std::min(static_cast<int>(std::sqrt(sine) * (direction_nodes - 1)), direction_nodes - 2);
+    const float low = sine_of_node(node);
+    result.direction = node;
+    result.direction_share = std::clamp((sine - low) / (sine_of_node(node + 1) - low), 0.f, 1.f);
     return result;
   }
   /// For the mean over all directions.
@@ -95,7 +97,9 @@ class RatioTable {
   static constexpr float column_nm = 2;
   static constexpr int column_count = static_cast<int>((longest_wavelength_nm - shortest_wavelength_nm) / column_nm) + 1;
 
-  static constexpr int direction_nodes = 65;  // of sines from 0 to 1; after them the mean over directions
+  // Of sines from 0 to 1, those of phase::OrientedCrystals; after them the mean over directions.
+  static constexpr int direction_nodes = 65;
+  static constexpr float sine_of_node(int i) { return static_cast<float>(i * i) / ((direction_nodes - 1) * (direction_nodes - 1)); }
 
   int row_count_ = 1;
   bool is_directed_ = false;

@@ -50,7 +50,7 @@ OrientedCrystals::OrientedCrystals(const CrystalTableSettings& settings, Oriente
   for (int size = 0; size < size_count(); ++size)
     for (int i = 0; i < sine_nodes; ++i)
       for (const double nm : table_.wavelength_nm)
-        extinction_.push_back(static_cast<float>(extinction_ratio(size, i / static_cast<double>(sine_nodes - 1), nm)));
+        extinction_.push_back(static_cast<float>(extinction_ratio(size, sine_of_node(i), nm)));
   if (table_.elevation_deg.size() < 2) return;
 
   elevations_per_deg_ = static_cast<double>(table_.elevation_deg.size() - 1) / (table_.elevation_deg.back() - table_.elevation_deg.front());
@@ -88,10 +88,13 @@ double OrientedCrystals::extinction_ratio(int size, double sine_elevation, doubl
 
 double OrientedCrystals::mean_extinction_ratio(int size, double wavelength_nm) const {
   // All sines of elevation are equally likely for random directions; linear between the nodes.
-  double sum = 0;
-  for (int i = 0; i < sine_nodes; ++i)
-    sum += extinction_ratio(size, i / static_cast<double>(sine_nodes - 1), wavelength_nm) * (i == 0 || i == sine_nodes - 1 ? 0.5 : 1);
-  return sum / (sine_nodes - 1);
+  double sum = 0, before = extinction_ratio(size, 0, wavelength_nm);
+  for (int i = 1; i < sine_nodes; ++i) {
+    const double here = extinction_ratio(size, sine_of_node(i), wavelength_nm);
+    sum += 0.5 * (before + here) * (sine_of_node(i) - sine_of_node(i - 1));
+    before = here;
+  }
+  return sum;
 }
 
 OrientedCrystals::Columns OrientedCrystals::columns_of(const Wavelengths& wavelengths) const {
@@ -113,9 +116,9 @@ OrientedCrystals::Columns OrientedCrystals::columns_of(const Wavelengths& wavele
 
 Spectrum OrientedCrystals::extinction(int size, double sine_elevation, const Columns& columns) const {
   const std::size_t waves = table_.wavelength_nm.size();
-  const double at = std::min(std::fabs(sine_elevation), 1.0) * (sine_nodes - 1);
-  const int node = std::min(static_cast<int>(at), sine_nodes - 2);
-  const auto share = static_cast<float>(at - node);
+  const double sine = std::min(std::fabs(sine_elevation), 1.0);
+  const int node = std::min(static_cast<int>(std::sqrt(sine) * (sine_nodes - 1)), sine_nodes - 2);
+  const auto share = static_cast<float>((sine - sine_of_node(node)) / (sine_of_node(node + 1) - sine_of_node(node)));
   const float* low = &extinction_[(static_cast<std::size_t>(size) * sine_nodes + static_cast<std::size_t>(node)) * waves];
   const float* high = low + waves;
   const std::size_t step = waves > 1 ? 1 : 0;

@@ -56,7 +56,7 @@ Species::Species(std::unique_ptr<const OrientedCrystals> crystals) : oriented_(s
     for (int node = 0; node < nodes; ++node)
       for (int i = 0; i < wavelength_count_; ++i)
         directed_extinction_ratio_[static_cast<std::size_t>(node)].push_back(
-            static_cast<float>(oriented_->extinction_ratio(size, node / static_cast<double>(nodes - 1), at(i))));
+            static_cast<float>(oriented_->extinction_ratio(size, OrientedCrystals::sine_of_node(node), at(i))));
     for (int i = 0; i < wavelength_count_; ++i)
       extinction_ratio_.push_back(static_cast<float>(oriented_->mean_extinction_ratio(size, at(i))));
   }
