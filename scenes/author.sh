@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Authors the media of the scenes in this folder. Usage: scenes/author.sh ARCUS NAME (rain_shower | cumulus | fogbow | glory | corona | halo_22 | slab)
+# Authors the media of the scenes in this folder. Usage: scenes/author.sh ARCUS NAME (rain_shower | cumulus | fogbow | glory | corona | halo_22 | parhelia | circumzenithal | display | slab)
 set -euo pipefail
 arcus=$(realpath "${1:?usage: author.sh ARCUS NAME}")
 cd "$(dirname "${BASH_SOURCE[0]}")"
@@ -26,8 +26,18 @@ case "${2:?usage: author.sh ARCUS NAME}" in
     # Seen from below as wide as the sky: a sheet so large that its edge is near the horizon.
     "$arcus" author box -o halo_22.vdb --name cirrostratus --optical-depth 0.7 --centre-m 0,0,8500 --size-m 200000,200000,800 --voxels 4,4,4 \
       --phase-type crystal --phase-habit prism --phase-orientation-type random --phase-size-um 200 ;;
+  # Sheets of crystals so large that halos no longer depend on their size, which end a few degrees above the horizon.
+  parhelia)
+    "$arcus" author cirrus -o parhelia.vdb --kind cirrostratus --habits plate,random_plate --shares 0.6,0.4 --optical-depth 0.8 --size-m 300000 \
+      --base-m 7500 --top-m 9000 --voxel-m 500 --tilt-deg 1.5 --length-over-width 5 --texture 2 --size-nodes 1 ;;
+  circumzenithal)
+    "$arcus" author cirrus -o circumzenithal.vdb --kind cirrostratus --habits plate,column --shares 0.6,0.4 --optical-depth 0.8 --size-m 300000 \
+      --base-m 7500 --top-m 9000 --voxel-m 500 --tilt-deg 0.7,0.5 --length-over-width 5 --texture 2 --size-nodes 1 --seed 2 ;;
+  display)
+    "$arcus" author cirrus -o display.vdb --kind cirrostratus --habits plate,column,parry,random_column --shares 0.3,0.4,0.05,0.25 --optical-depth 1 \
+      --size-m 300000 --base-m 7000 --top-m 8500 --voxel-m 500 --tilt-deg 1,0.5,0.5,1 --length-over-width 5 --size-nodes 1 --seed 3 ;;
   slab)
     "$arcus" author box -o slab.vdb --name layer --optical-depth 5 --centre-m 0,0,0 --size-m 100000,100000,1 --voxels 4,4,4 \
       --phase-type hg --phase-g 0.85 ;;
-  *) echo "author.sh: no medium for '$2'; known: rain_shower, cumulus, fogbow, glory, corona, halo_22, slab" >&2; exit 2 ;;
+  *) echo "author.sh: no medium for '$2'; known: rain_shower, cumulus, fogbow, glory, corona, halo_22, parhelia, circumzenithal, display, slab" >&2; exit 2 ;;
 esac

@@ -46,7 +46,7 @@ class ExtinctionProbe {
   }
 
  private:
-  static constexpr std::size_t prepared = 2;
+  static constexpr std::size_t prepared = 4;
   /// A ray as seen from a component, and the ratios to 550 nm, times the component's scale, of the last two rows of sizes used.
   struct View {
     Vec3 origin, direction;

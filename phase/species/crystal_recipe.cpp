@@ -12,7 +12,7 @@ CrystalTableSettings crystal_settings_of(const Recipe& recipe) {
   settings.size_spread = recipe.size_spread;
   settings.diffraction = recipe.optics == "wave";
   settings.remove_forward = recipe.forward_lobe == "remove";
-  settings.rays = 1e6 * recipe.rays_million;
+  settings.rays = recipe.rays();
   settings.map_step_deg = recipe.map_step_deg;
   settings.map_noise = recipe.map_noise;
   const RefractiveIndex material = refractive_index_of(recipe);

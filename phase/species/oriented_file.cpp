@@ -117,7 +117,7 @@ OrientedTable oriented_table_of(const Recipe& recipe, double sun_elevation_deg, 
   };
   const auto make = [&] {
     if (options.log)
-      options.log("tracing " + number_text(recipe.rays_million) + " million rays at each of " +
+      options.log("tracing " + number_text(recipe.rays() / 1e6) + " million rays at each of " +
                   std::to_string(recipe.wavelength_nm.size()) + " wavelengths through " + recipe.crystal.name +
                   " crystals, sun at " + number_text(sun_elevation_deg) + " degrees");
     file.table = tabulate_oriented_crystals(crystal_settings_of(recipe), sun_elevation_deg, sun_angular_radius_deg, options.progress);

@@ -68,8 +68,9 @@ void list_crystal_keys(Keys& keys, Recipe& recipe) {
   keys.choice("forward_lobe", recipe.forward_lobe, {"remove", "scatter"},
               "remove: what passes through parallel faces, and where crystals are so large that their diffraction is "
               "narrower than the sun that too, counts as light that goes straight on; scatter: keep it");
-  keys.number("rays_million", recipe.rays_million, above_up_to(0, 1e5),
-              "rays traced at each wavelength for a table or a map, in millions; more of them leave less noise and finer detail");
+  keys.number("rays_million", recipe.rays_million, between(0, 1e5),
+              "rays traced at each wavelength, in millions; more of them leave less noise and finer detail; 0: 1 for the table of crystals "
+              "that lie at random, 4 for the map of the sky of others");
   if (keys.only_if(recipe.is_oriented(), "oriented crystals")) {
     keys.number("map_step_deg", recipe.map_step_deg, between(0.02, 5), "between the nodes of the map of the sky");
     keys.number("map_noise", recipe.map_noise, above_up_to(0, 1),

@@ -37,7 +37,9 @@ struct Recipe {
   // crystal
   CrystalSettings crystal;
   double size_spread = 0;     ///< standard deviation of the logarithm of the sizes around a node (log-normal)
-  double rays_million = 4;    ///< traced at each wavelength for a table or a map, in millions
+  /// Traced at each wavelength for a table or a map, in millions; 0: 1 for a table, 4 for a map.
+  double rays_million = 0;
+  double rays() const { return 1e6 * (rays_million > 0 ? rays_million : is_oriented() ? 4 : 1); }
   double map_step_deg = 0.1;  ///< oriented: between the nodes of the map of the sky
   double map_noise = 0.03;    ///< oriented: relative standard error of the map, up to which it is smoothed
 
