@@ -126,7 +126,7 @@ std::string title_of(const std::vector<Crystals>& crystals) {
 }
 
 std::string subtitle_of(const SkyCommand& command) {
-  std::string text = "sun at " + number_text(command.sun_elevation_deg) + "°; brightness logarithmic, " + number_text(command.decades) + " decades";
+  std::string text = "sun at " + number_text(command.sun_elevation_deg) + "°";
   const auto list = [&](const std::vector<std::string>& paths, const std::string& words) {
     for (std::size_t i = 0; i < paths.size(); ++i) text += (i == 0 ? words : ", ") + paths[i];
   };
@@ -253,7 +253,7 @@ void add_sky_options(CLI::App& app, SkyCommand& command) {
   flag("--label", command.label, "name the halos");
   flag("--plain", command.plain, "nothing but the sky: no words, circles and sun");
   option("--projection", command.projection, "equidistant or equal-area")->check(CLI::IsMember({"equidistant", "equal-area"}))->capture_default_str();
-  option("--decades", command.decades, "of brightness that the picture shows")->check(CLI::Range(0.5, 12.0))->capture_default_str();
+  option("--decades", command.decades, "of brightness that the picture shows, or fewer where the whole sky is bright")->check(CLI::Range(0.5, 12.0))->capture_default_str();
   option("--exposure-ev", command.exposure_ev, "brighter by 2^EV")->check(CLI::Range(-30.0, 30.0))->capture_default_str();
   option("--size-px", command.size_px, "width of a half of the sky")->check(CLI::Range(200, 8000))->capture_default_str();
   option("--ray-path", command.ray_paths, "3-5: the light of that path alone and of those that are the same by the crystal's symmetry; may be repeated")

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "phase/base/units.h"
 #include "phase/base/whole_file.h"
@@ -65,20 +66,37 @@ std::vector<Rgb> colours_of(const Disc& disc, const SkyLight& light, int side_px
   return colours;
 }
 
-/// What a thousandth of the pixels exceed.
-double bright(const std::vector<std::vector<Rgb>>& discs) {
+/// What black and bright white stand for.
+struct Range {
+  double most = 1, decades = 1;
+
+  /// 0 for black ... 1 for what is bright, or above.
+  double place_of(double luminance) const { return luminance > 0 ? std::max(0.0, 1 + std::log10(luminance / most) / decades) : 0; }
+};
+
+Range range_of(const std::vector<std::vector<Rgb>>& discs, const SkyChart& chart) {
   std::vector<double> all;
   for (const auto& colours : discs)
     for (const Rgb& c : colours)
       if (c.r != -1) all.push_back(luminance_of(c));
-  if (all.empty()) return 1;
-  const auto at = all.begin() + static_cast<std::ptrdiff_t>(static_cast<double>(all.size() - 1) * 0.999);
-  std::nth_element(all.begin(), at, all.end());
-  // Of little light in few places, the brightest.
-  return *at > 0 ? *at : *std::max_element(at, all.end());
+  Range range;
+  range.decades = chart.decades;
+  const auto exceeded_by = [&](double share) {
+    const auto at = all.begin() + static_cast<std::ptrdiff_t>(static_cast<double>(all.size() - 1) * (1 - share));
+    std::nth_element(all.begin(), at, all.end());
+    return *at;
+  };
+  if (all.empty() || !(*std::ranges::max_element(all) > 0)) return range;
+  // Of light in few places, the brightest.
+  range.most = exceeded_by(0.001) > 0 ? exceeded_by(0.001) : *std::ranges::max_element(all);
+  // A sky that is bright all over would be grey in grey.
+  const double least = 0.6 * exceeded_by(0.98);
+  if (least > 0) range.decades = std::clamp(std::log10(range.most / least), std::min(0.5, chart.decades), chart.decades);
+  range.most /= std::exp2(chart.exposure_ev);
+  return range;
 }
 
-std::vector<std::uint8_t> shown(const std::vector<Rgb>& colours, double most, const SkyChart& chart) {
+std::vector<std::uint8_t> shown(const std::vector<Rgb>& colours, const Range& range) {
   std::vector<std::uint8_t> bytes;
   bytes.reserve(3 * colours.size());
   for (const Rgb& c : colours) {
@@ -88,7 +106,7 @@ std::vector<std::uint8_t> shown(const std::vector<Rgb>& colours, double most, co
       continue;
     }
     const double luminance = luminance_of(c);
-    const double place = luminance > 0 && most > 0 ? 1 + std::log10(luminance / most * std::exp2(chart.exposure_ev)) / chart.decades : 0;
+    const double place = range.place_of(luminance);
     // Steps of the logarithm become steps of the eye's scale, whose square or so is the luminance.
     const double factor = place > 0 ? 0.8 * std::pow(place, 2.2) / luminance : 0;
     linear = display_linear({c.r * factor, c.g * factor, c.b * factor});
@@ -124,7 +142,15 @@ void draw_marks(Canvas& canvas, const Disc& disc, const SkyChart& chart) {
   }
 }
 
-void draw_labels(Canvas& canvas, const Disc& disc, const SkyChart& chart) {
+/// Whether there is light that the picture shows within a degree.
+bool is_lit(const SkyPoint& p, const SkyLight& light, const Range& range) {
+  for (const double up : {-1.0, -0.5, 0.0, 0.5, 1.0})
+    for (const double aside : {-1.0, -0.5, 0.0, 0.5, 1.0})
+      if (range.place_of(luminance_of(light(p.azimuth_deg + aside, std::clamp(p.elevation_deg + up, -90.0, 90.0)))) > 0.1) return true;
+  return false;
+}
+
+void draw_labels(Canvas& canvas, const Disc& disc, const SkyChart& chart, const SkyLight& light, const Range& range) {
   constexpr double size = 8.5;
   const TextStyle style{size, label_ink, false, 0, 0, true, {0, 0, 0}};
   LabelPlacer placer({disc.centre.x - disc.radius, disc.centre.y - disc.radius, disc.centre.x + disc.radius, disc.centre.y + disc.radius});
@@ -142,7 +168,7 @@ void draw_labels(Canvas& canvas, const Disc& disc, const SkyChart& chart) {
   for (const SkyLabel& label : chart.labels) {
     std::vector<Point> points;
     for (const SkyPoint& p : label.points)
-      if (disc.has(p)) points.push_back(disc.at(p));
+      if (disc.has(p) && is_lit(p, light, range)) points.push_back(disc.at(p));
     const auto placed = placer.place(points, canvas.text_width(label.text, style) + 4, size + 3);
     if (!placed) continue;
     const Point leader[] = {placed->point, placed->corner};
@@ -166,18 +192,20 @@ std::string png_of(const SkyChart& chart, const SkyLight& light) {
     discs.push_back({{side * (0.5 + half), top + 0.5 * side}, 0.5 * side - edge, half == 1, chart.projection});
   const int side_px = static_cast<int>(2 * 2 * discs.front().radius);
   for (const Disc& disc : discs) colours.push_back(colours_of(disc, light, side_px));
-  const double most = bright(colours);
+  const Range range = range_of(colours, chart);
   for (std::size_t i = 0; i < discs.size(); ++i) {
     const Disc& disc = discs[i];
     canvas.picture({disc.centre.x - disc.radius, disc.centre.y - disc.radius}, 2 * disc.radius, 2 * disc.radius,
-                   shown(colours[i], most, chart), side_px, side_px);
+                   shown(colours[i], range), side_px, side_px);
     if (!chart.has_marks) continue;
     draw_marks(canvas, disc, chart);
-    draw_labels(canvas, disc, chart);
+    draw_labels(canvas, disc, chart, light, range);
   }
   if (chart.has_marks) {
     canvas.text(chart.title, {14, 20}, {13, word_ink, true});
-    canvas.text(chart.subtitle, {14, 36}, {9, faint_ink});
+    char decades[60];
+    std::snprintf(decades, sizeof decades, "; brightness logarithmic, %.1f decades", range.decades);
+    canvas.text(chart.subtitle + decades, {14, 36}, {9, faint_ink});
   }
   return canvas.png();
 }

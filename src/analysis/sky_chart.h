@@ -25,7 +25,8 @@ struct SkyChart {
   double sun_elevation_deg = 0, sun_angular_radius_deg = 0.2666;
   bool has_lower_half = false;  ///< beside the upper one: the nadir in the middle, the sun's side above
   SkyProjection projection = SkyProjection::equidistant;
-  /// Brightness is shown by its logarithm, over so many decades down from that which a thousandth of the sky exceeds.
+  /// Brightness is shown by its logarithm, over so many decades down from that which a thousandth of the sky exceeds; over fewer
+  /// where nearly all of the sky is brighter than their end.
   double decades = 3.5;
   double exposure_ev = 0;       ///< brighter by 2^ev
   std::vector<SkyLabel> labels;
