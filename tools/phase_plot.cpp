@@ -1,7 +1,8 @@
-// arcus phase plot: pictures of a phase function.
+// arcus phase plot: pictures of a phase function. Those of the sky with crystals are in phase_sky.cpp.
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -14,18 +15,22 @@
 #include "src/light/sun.h"
 #include "tools/command.h"
 #include "tools/number_list.h"
+#include "tools/phase_sky.h"
 
 namespace arcus::tools {
 namespace {
 
-struct PlotCommand {
-  std::string recipe, output, polar, cache_folder, wavelengths = "650,550,450";
-  double size_um = 0, sun_radius_deg = 0.2666, from_deg = 0, to_deg = 180;
-  bool quiet = false;
+struct PlotCommand : SkyCommand {
+  std::string polar, wavelengths = "650,550,450";
+  double from_deg = 0, to_deg = 180;
+  bool curves = false;
 };
 
-void run(const PlotCommand& command) {
-  phase::Recipe recipe = phase::recipe_from_file(command.recipe);
+void run_curves(const PlotCommand& command, phase::Recipe recipe) {
+  if (command.output.empty()) throw bad_input("--output", "nothing", "the name of a picture expected");
+  if (recipe.is_oriented())
+    throw bad_input(command.recipes[0], "crystals that lie as '" + recipe.crystal.orientation.type + "'",
+                    "crystals at random expected for curves, because others do not scatter by the angle alone");
   if (!(command.from_deg < command.to_deg))
     throw bad_input("--to-deg", number_text(command.to_deg), "an angle above --from-deg expected");
   render::PhaseChartSettings settings;
@@ -58,13 +63,30 @@ void run(const PlotCommand& command) {
   if (!command.polar.empty()) write_chart(command.polar, phase_polar_chart(*species, settings));
 }
 
+void run(const PlotCommand& command) {
+  std::vector<phase::Recipe> recipes;
+  for (const std::string& file : command.recipes) recipes.push_back(phase::recipe_from_file(file));
+  const auto other = std::ranges::find_if(recipes, [](const phase::Recipe& recipe) { return !recipe.is_crystal(); });
+  const bool asks_for_curves = command.curves || !command.polar.empty();
+  if (other == recipes.end() && !asks_for_curves) return run_sky(command, std::move(recipes));
+  if (recipes.size() > 1) {
+    if (asks_for_curves) throw bad_input(command.recipes[1], "a second recipe", "curves are drawn of one");
+    throw bad_input(command.recipes[static_cast<std::size_t>(other - recipes.begin())], "type '" + other->type + "'",
+                    "recipes of crystals expected, because only they add up to a picture of the sky");
+  }
+  if (other != recipes.end() && !(command.paths_at.empty() && command.ray_paths.empty() && command.without_paths.empty()))
+    throw bad_input(command.recipes[0], "type '" + other->type + "'", "a recipe of crystals expected for ray paths");
+  run_curves(command, std::move(recipes.front()));
+}
+
 }  // namespace
 
 void add_phase_plot(CLI::App& phase) {
   auto command = std::make_shared<PlotCommand>();
-  CLI::App* app = phase.add_subcommand("plot", "A phase function as PNG: curves by colour, colours of the sky, polar");
-  app->add_option("RECIPE", command->recipe, "recipe file (TOML)")->required();
-  app->add_option("-o,--output", command->output, "OUT.png: curves, and strips of the colours in sunlight")->required();
+  CLI::App* app = phase.add_subcommand("plot", "A phase function as PNG: curves by colour, colours of the sky, polar; of crystals the whole sky");
+  app->add_option("RECIPE", command->recipes, "recipe file (TOML); several of crystals make a display together")->required();
+  app->add_option("-o,--output", command->output, "OUT.png: curves, and strips of the colours in sunlight; of crystals the sky");
+  app->add_flag("--curves", command->curves, "curves of crystals that lie at random, too, and not the sky");
   app->add_option("--polar", command->polar, "POLAR.png: the curves around the particle");
   app->add_option("--size-um", command->size_um, "effective radius, of crystals maximum dimension (default: the recipe's middle size node)")
       ->check(CLI::PositiveNumber);
@@ -76,6 +98,7 @@ void add_phase_plot(CLI::App& phase) {
   app->add_option("--to-deg", command->to_deg, "largest scattering angle")->check(CLI::Range(0.0, 180.0));
   app->add_option("--cache", command->cache_folder, "folder of the phase tables (default: $XDG_CACHE_HOME/arcus/phase)");
   app->add_flag("--quiet", command->quiet, "say nothing but errors");
+  add_sky_options(*app, *command);
   app->callback([command] { run(*command); });
 }
 

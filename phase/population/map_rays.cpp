@@ -91,30 +91,27 @@ void find_cells(const VectorColumns& light, const SkyGrid& grid, std::int32_t* c
   }
 }
 
-}  // namespace
+/// Takes light away whose path does not count.
+void keep(const PathFilter& paths, const CrystalBatch& batch, int event, Column& weight) {
+  for (int i = 0; i < column_rays; ++i)
+    if (weight[i] > 0 && !paths.lets_through(batch.path(event, i))) weight[i] = 0;
+}
 
-double add_rays(const CrystalPopulation& crystals, const CrystalWave& wave, const MapOptions& options, const SunLight& sun,
-                const SkyGrid& grid, double rays, RandomColumns& random, std::vector<MapCell>& cells, RayAccount& account) {
-  CrystalShower shower(crystals, wave, options.events);
+/// Traces at least that many rays and calls deposit(directions of travel, their cross-sections [um2], event) for each event, and with
+/// no_event for diffracted light. Gives their number.
+constexpr int no_event = -1;
+template <class Deposit>
+double trace_rays(CrystalShower& shower, const CrystalWave& wave, const MapOptions& options, const SunLight& sun, double rays,
+                  RandomColumns& random, RayAccount& account, const Deposit& deposit) {
   const AiryColumns airy;
   const SizeSpread sizes(options.size_spread);
   const auto x_of_root = static_cast<float>(size_parameter(1, wave.wavelength_nm) / std::sqrt(pi));
   const CrystalBatch& batch = shower.batch();
   const double batches = std::ceil(rays / column_rays);
-  MapCell* map = cells.data();
+  const bool filtered = !options.paths.lets_all_through();
   VectorColumns light, crystal, seen;
   Column factor, weight, x;
   AiryColumns::Turns turns;
-  std::int32_t cell[column_rays];
-  const auto deposit = [&](const VectorColumns& directions) {
-    find_cells(directions, grid, cell);
-    for (int i = 0; i < column_rays; ++i) {
-      if (!(weight[i] > 0)) continue;
-      MapCell& at = map[cell[i]];
-      at.light += weight[i];
-      at.squares += weight[i] * weight[i];
-    }
-  };
   for (double sent = 0; sent < batches; ++sent) {
     Sums sums;
     sun.draw(random, light);
@@ -128,17 +125,18 @@ double add_rays(const CrystalPopulation& crystals, const CrystalWave& wave, cons
     }
     for (int event = 0; event <= shower.events(); ++event) {
       weigh(shower, event, options.keep_straight, weight, sums.straight);
+      if (filtered) keep(options.paths, batch, event, weight);
       std::copy_n(batch.column(event, CrystalBatch::x).data(), column_rays, crystal.x.values);
       std::copy_n(batch.column(event, CrystalBatch::y).data(), column_rays, crystal.y.values);
       std::copy_n(batch.column(event, CrystalBatch::z).data(), column_rays, crystal.z.values);
       if (options.blur) turn(turns, crystal);
       shower.orientations().to_world(crystal, seen);
-      deposit(seen);
+      deposit(seen, weight, event);
     }
-    if (options.diffracted_light) {
+    if (options.diffracted_light && options.paths.lets_diffracted_light_through()) {
       std::copy_n(area, column_rays, weight.values);
       turn(turns, light);
-      deposit(light);
+      deposit(light, weight, no_event);
     }
     add(sums, sizes.mean_square(), account);
   }
@@ -146,6 +144,48 @@ double add_rays(const CrystalPopulation& crystals, const CrystalWave& wave, cons
   const double sent = batches * column_rays;
   for (double* mean : {&account.shadow, &account.straight, &account.absorbed, &account.cut_off}) *mean /= sent;
   return sent;
+}
+
+}  // namespace
+
+double add_rays(const CrystalPopulation& crystals, const CrystalWave& wave, const MapOptions& options, const SunLight& sun,
+                const SkyGrid& grid, double rays, RandomColumns& random, std::vector<MapCell>& cells, RayAccount& account) {
+  CrystalShower shower(crystals, wave, options.events);
+  MapCell* map = cells.data();
+  std::int32_t cell[column_rays];
+  return trace_rays(shower, wave, options, sun, rays, random, account,
+                    [&](const VectorColumns& directions, const Column& weight, int) {
+                      find_cells(directions, grid, cell);
+                      for (int i = 0; i < column_rays; ++i) {
+                        if (!(weight[i] > 0)) continue;
+                        MapCell& at = map[cell[i]];
+                        at.light += weight[i];
+                        at.squares += weight[i] * weight[i];
+                      }
+                    });
+}
+
+double add_paths(const CrystalPopulation& crystals, const CrystalWave& wave, const MapOptions& options, const SunLight& sun,
+                 const SkyPlace& place, double rays, RandomColumns& random, LightByPath& paths) {
+  CrystalShower shower(crystals, wave, options.events);
+  RayAccount account;
+  // The sun is above x; clockwise from above turns x against y.
+  const double level = std::cos(radians(place.elevation_deg)), azimuth = radians(place.azimuth_deg);
+  const auto x = static_cast<float>(level * std::cos(azimuth)), y = static_cast<float>(-level * std::sin(azimuth)),
+             z = static_cast<float>(std::sin(radians(place.elevation_deg)));
+  const double chord = 2 * std::sin(0.5 * radians(place.radius_deg));
+  const auto nearest = static_cast<float>(chord * chord);
+  return trace_rays(shower, wave, options, sun, rays, random, account,
+                    [&](const VectorColumns& directions, const Column& weight, int event) {
+                      for (int i = 0; i < column_rays; ++i) {
+                        const float dx = directions.x[i] + x, dy = directions.y[i] + y, dz = directions.z[i] + z;
+                        if (!(weight[i] > 0) || dx * dx + dy * dy + dz * dz > nearest) continue;
+                        PathLight& light = paths[event == no_event ? FacePath() : shower.batch().path(event, i)];
+                        light.light_um2 += weight[i];
+                        light.squares_um4 += static_cast<double>(weight[i]) * weight[i];
+                        ++light.rays;
+                      }
+                    });
 }
 
 namespace {

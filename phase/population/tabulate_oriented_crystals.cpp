@@ -74,17 +74,6 @@ float rounded(float value, int digits) {
 }
 constexpr int light_digits = 9, error_digits = 5;
 
-MapOptions options_of(const CrystalTableSettings& settings, const CrystalPopulation& crystals) {
-  const bool narrow = is_diffraction_narrow(crystals);
-  MapOptions options;
-  options.blur = settings.diffraction;
-  // Where diffraction is wider than the sun's disc, light that goes straight on is blurred with it and stays in the map.
-  options.keep_straight = !settings.remove_forward || (settings.diffraction && !narrow);
-  options.diffracted_light = settings.diffraction && !(settings.remove_forward && narrow);
-  options.size_spread = settings.size_spread;
-  return options;
-}
-
 void lay_out(OrientedTable& table, const CrystalTableSettings& settings, const SkyGrid& grid) {
   table.size_um = settings.size_um;
   for (const CrystalWave& wave : settings.waves) table.wavelength_nm.push_back(wave.wavelength_nm);
@@ -184,6 +173,18 @@ void account_row(const CrystalPopulation& crystals, const CrystalWave& wave, con
 
 }  // namespace
 
+MapOptions map_options_of(const CrystalTableSettings& settings, const CrystalPopulation& crystals) {
+  const bool narrow = is_diffraction_narrow(crystals);
+  MapOptions options;
+  options.blur = settings.diffraction;
+  // Where diffraction is wider than the sun's disc, light that goes straight on is blurred with it and stays in the map.
+  options.keep_straight = !settings.remove_forward || (settings.diffraction && !narrow);
+  options.diffracted_light = settings.diffraction && !(settings.remove_forward && narrow);
+  options.size_spread = settings.size_spread;
+  options.paths = settings.map_paths;
+  return options;
+}
+
 OrientedTable tabulate_oriented_crystals(const CrystalTableSettings& settings, double sun_elevation_deg, double sun_angular_radius_deg,
                                          const std::function<void(double)>& progress) {
   const SkyGrid grid(settings.map_step_deg);
@@ -195,9 +196,10 @@ OrientedTable tabulate_oriented_crystals(const CrystalTableSettings& settings, d
   Work work(progress, static_cast<double>(settings.size_um.size() * waves));
   for (std::size_t size = 0; size < settings.size_um.size(); ++size) {
     const CrystalPopulation crystals(settings.crystals, settings.size_um[size]);
-    const MapOptions options = options_of(settings, crystals);
+    const MapOptions options = map_options_of(settings, crystals);
     MapOptions map_options = options;
-    map_options.events = sufficient_events(crystals, settings.waves[waves / 2], std::sin(radians(sun_elevation_deg)));
+    map_options.events = std::min(std::max(1, settings.map_paths.last_event()),
+                                  sufficient_events(crystals, settings.waves[waves / 2], std::sin(radians(sun_elevation_deg))));
     const double mean_square = std::exp(settings.size_spread * settings.size_spread);
     const Straight straight(crystals, settings.waves, options, table.sine_elevation, settings.rays, size);
     std::vector<std::vector<float>> light(waves);  // by cell, a plane for each wavelength

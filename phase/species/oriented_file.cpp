@@ -96,19 +96,21 @@ OrientedFile read_oriented_file(const std::string& path) {
   return file;
 }
 
-std::string oriented_table_id(const Recipe& recipe, double sun_elevation_deg, double sun_angular_radius_deg) {
-  return content_hash(recipe_id(recipe) + " map " + std::to_string(computation_version) + " sun " + number_text(sun_elevation_deg) +
-                      " " + number_text(sun_angular_radius_deg));
+std::string oriented_table_id(const Recipe& recipe, double sun_elevation_deg, double sun_angular_radius_deg, const PathFilter& paths) {
+  // Recipes of crystals at random say nothing about maps, so that their own tables do not depend on it.
+  const std::string map = recipe.is_oriented() ? "" : " step " + number_text(recipe.map_step_deg) + " noise " + number_text(recipe.map_noise);
+  return content_hash(recipe_id(recipe) + map + " map " + std::to_string(computation_version) + " sun " + number_text(sun_elevation_deg) +
+                      " " + number_text(sun_angular_radius_deg) + (paths.lets_all_through() ? "" : " paths " + paths.text()));
 }
 
 OrientedTable oriented_table_of(const Recipe& recipe, double sun_elevation_deg, double sun_angular_radius_deg,
-                                const SpeciesOptions& options) {
+                                const SpeciesOptions& options, const PathFilter& paths) {
   if (!recipe.is_crystal()) throw bad_input("type", "'" + recipe.type + "'", "a recipe of crystals expected");
   if (!(sun_elevation_deg >= -90 && sun_elevation_deg <= 90))
     throw bad_input("elevation of the sun", number_text(sun_elevation_deg), "must be between -90 and 90");
   OrientedFile file;
   file.recipe = text_of(recipe);
-  file.id = oriented_table_id(recipe, sun_elevation_deg, sun_angular_radius_deg);
+  file.id = oriented_table_id(recipe, sun_elevation_deg, sun_angular_radius_deg, paths);
   const std::string id = file.id;
   const auto read = [&](const std::string& path) {
     OrientedFile found = read_oriented_file(path);
@@ -120,7 +122,9 @@ OrientedTable oriented_table_of(const Recipe& recipe, double sun_elevation_deg, 
       options.log("tracing " + number_text(recipe.rays() / 1e6) + " million rays at each of " +
                   std::to_string(recipe.wavelength_nm.size()) + " wavelengths through " + recipe.crystal.name +
                   " crystals, sun at " + number_text(sun_elevation_deg) + " degrees");
-    file.table = tabulate_oriented_crystals(crystal_settings_of(recipe), sun_elevation_deg, sun_angular_radius_deg, options.progress);
+    CrystalTableSettings settings = crystal_settings_of(recipe);
+    settings.map_paths = paths;
+    file.table = tabulate_oriented_crystals(settings, sun_elevation_deg, sun_angular_radius_deg, options.progress);
   };
   TableCache(options.cache_folder, options.log).find_or_make(id, read, make, [&](const std::string& path) { write_oriented_file(path, file); });
   return std::move(file.table);

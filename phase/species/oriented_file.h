@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "phase/crystal/path_filter.h"
 #include "phase/population/oriented_table.h"
 #include "phase/species/make_species.h"
 
@@ -22,12 +23,13 @@ void write_oriented_file(const std::string& path, const OrientedFile& file);
 /// was written.
 OrientedFile read_oriented_file(const std::string& path);
 
-/// 32 hexadecimal digits that name the table of a recipe under a sun; the radius is that of its disc.
-std::string oriented_table_id(const Recipe& recipe, double sun_elevation_deg, double sun_angular_radius_deg);
+/// 32 hexadecimal digits that name the table of a recipe under a sun; the radius is that of its disc. paths: the light in the map.
+std::string oriented_table_id(const Recipe& recipe, double sun_elevation_deg, double sun_angular_radius_deg,
+                              const PathFilter& paths = {});
 
 /// The table of a recipe of crystals: from the cache of options, or computed and kept. The sun's disc is what the arguments say,
-/// whatever the options have. Throws bad_input for other recipes and for an elevation outside of -90 to 90.
+/// whatever the options have. Crystals that lie at random are as good as others. Throws bad_input for other recipes and for an elevation outside of -90 to 90.
 OrientedTable oriented_table_of(const Recipe& recipe, double sun_elevation_deg, double sun_angular_radius_deg,
-                                const SpeciesOptions& options);
+                                const SpeciesOptions& options, const PathFilter& paths = {});
 
 }  // namespace arcus::phase

@@ -3,6 +3,7 @@
 #include <cairo.h>
 
 #include <cmath>
+#include <cstring>
 #include <new>
 
 #include "phase/base/error.h"
@@ -94,12 +95,39 @@ void Canvas::text(std::string_view text, Point at, const TextStyle& style) {
   cairo_move_to(pen, -style.across * width, 0);
   if (style.has_halo) {
     cairo_text_path(pen, words.c_str());
-    stroke(pen, {{1, 1, 1}, 3.5, 0.9, false});
+    stroke(pen, {style.halo, 3.5, 0.9, false});
     cairo_move_to(pen, -style.across * width, 0);
   }
   set_ink(pen, style.ink, 1);
   cairo_show_text(pen, words.c_str());
   cairo_restore(pen);
+}
+
+void Canvas::picture(Point at, double width, double height, std::span<const std::uint8_t> rgb, int width_px, int height_px) {
+  cairo_t* pen = sheet_->pen;
+  cairo_surface_t* image = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_px, height_px);
+  if (cairo_surface_status(image) != CAIRO_STATUS_SUCCESS) {
+    const cairo_status_t status = cairo_surface_status(image);
+    cairo_surface_destroy(image);
+    throw cannot("cannot draw a picture", cairo_status_to_string(status));
+  }
+  unsigned char* data = cairo_image_surface_get_data(image);
+  const int stride = cairo_image_surface_get_stride(image);
+  for (int row = 0; row < height_px; ++row)
+    for (int column = 0; column < width_px; ++column) {
+      const std::uint8_t* from = &rgb[3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(column))];
+      const std::uint32_t pixel = static_cast<std::uint32_t>(from[0]) << 16 | static_cast<std::uint32_t>(from[1]) << 8 | from[2];
+      std::memcpy(data + static_cast<std::ptrdiff_t>(row) * stride + 4 * column, &pixel, 4);
+    }
+  cairo_surface_mark_dirty(image);
+  cairo_save(pen);
+  cairo_translate(pen, at.x, at.y);
+  cairo_scale(pen, width / width_px, height / height_px);
+  cairo_set_source_surface(pen, image, 0, 0);
+  cairo_pattern_set_filter(cairo_get_source(pen), CAIRO_FILTER_BILINEAR);
+  cairo_paint(pen);
+  cairo_restore(pen);
+  cairo_surface_destroy(image);
 }
 
 double Canvas::text_width(std::string_view text, const TextStyle& style) const {

@@ -1,6 +1,7 @@
 #pragma once
 // A sheet to draw on; its source is the only one that uses Cairo.
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -23,7 +24,8 @@ struct TextStyle {
   bool is_bold = false;
   double across = 0;  ///< which point of the text lies at the position: 0 left, 0.5 middle, 1 right
   double turned_deg = 0;  ///< counterclockwise
-  bool has_halo = false;  ///< a white rim, for text over lines
+  bool has_halo = false;  ///< a rim, for text over lines
+  Ink halo{1, 1, 1};      ///< its colour
 };
 
 struct LineStyle {
@@ -48,6 +50,9 @@ class Canvas {
   void circle(Point centre, double radius, const LineStyle& style);
   /// Text whose base line begins (see TextStyle::across) at a point. UTF-8.
   void text(std::string_view text, Point at, const TextStyle& style);
+  /// A picture of width_px by height_px pixels, [row][column][R G B] of 8 bits, over a rectangle. Its pixels are those of the sheet
+  /// where the rectangle is half as many points wide and high and begins at half points.
+  void picture(Point at, double width, double height, std::span<const std::uint8_t> rgb, int width_px, int height_px);
   double text_width(std::string_view text, const TextStyle& style) const;
   /// Nothing is drawn outside of the rectangle from now on, until unclip().
   void clip(Point low, Point high);

@@ -179,6 +179,26 @@ for line in 'aspect_ratio = 1e-4' 'aspect_ratio = 1e4' 'upper_pyramid = { height
 done
 rm -f ice.nc
 
+# The sky of crystals.
+printf 'type = "crystal"\nhabit = "plate"\nwavelength_nm = 550\nrays_million = 0.01\nmap_step_deg = 5\n' >plates.toml
+printf 'type = "hg"\n' >hg.toml
+expect 2 "--ray-path: '3-x'.*as 3-5" "$ARCUS" phase plot plates.toml -o sky.png --ray-path 3-x
+expect 2 "--without-path: ''" "$ARCUS" phase plot plates.toml -o sky.png --without-path ''
+expect 2 "face 13 in '3-13'.*faces 1, 2, 3, 4, 5, 6, 7, 8" "$ARCUS" phase plot plates.toml -o sky.png --ray-path 3-5 --ray-path 3-13
+expect 2 'sun-elevation-deg.*91' "$ARCUS" phase plot plates.toml -o sky.png --sun-elevation-deg 91
+expect 2 '--weights: 1 number found.*2 in all' "$ARCUS" phase plot plates.toml plates.toml -o sky.png --weights 1
+expect 2 '--weights' "$ARCUS" phase plot plates.toml -o sky.png --weights -1
+expect 2 '--weights' "$ARCUS" phase plot plates.toml -o sky.png --weights 0
+expect 2 '--paths-at.*AZIMUTH,ELEVATION' "$ARCUS" phase plot plates.toml --paths-at 20
+expect 2 '--paths-at.*AZIMUTH,ELEVATION' "$ARCUS" phase plot plates.toml --paths-at 20,100
+expect 2 '--projection' "$ARCUS" phase plot plates.toml -o sky.png --projection flat
+expect 2 '--output: nothing' "$ARCUS" phase plot plates.toml
+expect 2 "type 'hg'.*recipes of crystals" "$ARCUS" phase plot plates.toml hg.toml -o sky.png
+expect 2 "type 'hg'.*ray paths" "$ARCUS" phase plot hg.toml -o sky.png --ray-path 3-5
+expect 2 "plates.toml: crystals that lie as 'plate'" "$ARCUS" phase plot plates.toml --curves -o sky.png
+expect 2 'none.toml' "$ARCUS" phase plot plates.toml none.toml -o sky.png
+absent sky.png
+
 # A damaged table in the cache is computed again, with a warning.
 printf 'type = "mie"\nsize_um = 2\nradii = 200\nwavelength_nm = { min = 500, max = 600, nodes = 2 }\n' >small.toml
 must "$ARCUS" phase compute small.toml

@@ -84,6 +84,27 @@ check 'phase plot makes a PNG' is_png drops.png
 check 'phase plot --polar makes a PNG' is_png polar.png
 expect 0 'recipe' "$ARCUS" info drops.nc
 
+# The sky of crystals: few rays, coarse maps.
+few='--rays-million 0.02 --map-step-deg 2 --quiet'
+for kind in plate column prism; do
+  printf 'type = "crystal"\nhabit = "%s"\nwavelength_nm = { min = 450, max = 650, nodes = 3 }\n' "$kind" >$kind.toml
+  must "$ARCUS" phase plot $kind.toml -o $kind.png --below --label --size-px 300 $few
+  check "phase plot of $kind makes a PNG" is_png $kind.png
+done
+must "$ARCUS" phase plot plate.toml column.toml --weights 1,0.5 -o display.png --projection equal-area --sun-elevation-deg 25 --size-px 300 $few
+check 'two recipes make one PNG' is_png display.png
+must "$ARCUS" phase plot prism.toml --curves -o curves.png --rays-million 0.02 --quiet
+check 'phase plot --curves makes a PNG' is_png curves.png
+tables=$(find "$XDG_CACHE_HOME" -name '*.nc' | wc -l)
+must "$ARCUS" phase plot plate.toml -o arc.png --ray-path 1-3 --plain --size-px 300 $few
+check 'a map of one path is kept beside that of all' test "$(find "$XDG_CACHE_HOME" -name '*.nc' | wc -l)" -eq $((tables + 1))
+check 'it is another picture' bash -c '! cmp -s arc.png plate.png'
+expect 0 '1-3 +plate' "$ARCUS" phase plot plate.toml --paths-at 0,66 --radius-deg 3 --rays-million 0.05
+expect 0 '# no light fell there' "$ARCUS" phase plot plate.toml --paths-at 0,66 --radius-deg 3 --without-path 1-3 --ray-path 1-3 --rays-million 0.01
+"$ARCUS" phase plot plate.toml --paths-at -25,20 --exact-path --rays-million 0.02 --json >paths.json
+check 'phase plot --paths-at --json is no JSON' is_json paths.json
+check 'a path has a share' grep -q '"share"' paths.json
+
 # A table from elsewhere: named relative to its recipe, and rendered from any folder.
 mkdir -p tables/scenes
 printf 'angle 450 650\n0 30 20\n90 1 1\n180 2 1\n' >tables/t.txt
