@@ -153,7 +153,7 @@ crystal() {  # crystal LINE...: a small recipe of prisms that lie at random, wit
     printf '%s\n' "$@"; } >ice.toml
 }
 crystal 'size_um = -1'
-expect 2 'ice.toml:5:1: size_um' "$ARCUS" phase compute ice.toml -o ice.nc
+expect 2 'ice.toml:5:11: size_um' "$ARCUS" phase compute ice.toml -o ice.nc
 crystal 'aspect_ratio = -2'
 expect 2 'aspect_ratio' "$ARCUS" phase compute ice.toml -o ice.nc
 crystal 'aspect_ratio = 0'
