@@ -165,7 +165,7 @@ TEST(IceEnergy, BrightnessGoesWithTheShadowTowardsTheSun) {
 }
 
 // The sun behind a layer of level plates is dimmed by their shadow. Extinction is linear between nodes of the sine of elevation, and
-// near the zenith the shadow of the sides goes as the cosine: there 0.8 % are allowed.
+// near the zenith the shadow of the sides goes as the cosine: there 1 % of the depth is allowed.
 TEST(IceEnergy, TheSunIsDimmedByTheShadowTowardsIt) {
   for (const double elevation : {10.0, 50.0, 80.0}) {
     const SunSettings sun = ice_sun(elevation, sun_radius_deg);
