@@ -23,7 +23,6 @@ RatioTable::RatioTable(const phase::Species& species, float smallest_um, float l
     last_row_ = std::nextafter(static_cast<float>(row_count_ - 1), 0.f);
   }
   is_directed_ = species.is_oriented();
-  static_assert(direction_nodes == phase::OrientedCrystals::sine_nodes);
   const int blocks = is_directed_ ? direction_nodes + 1 : 1;
   values_.resize(static_cast<std::size_t>(blocks * row_count_) * (column_count + 1));
   for (int block = 0; block < blocks; ++block)

@@ -10,6 +10,7 @@
 
 #include "phase/base/spectrum.h"
 #include "phase/base/wavelengths.h"
+#include "phase/population/sine_nodes.h"
 
 namespace arcus::phase {
 class Species;
@@ -36,10 +37,9 @@ class RatioTable {
   static Columns columns(const Wavelengths& wavelengths, double sine_elevation) {
     Columns result = mean_columns(wavelengths);
     const float sine = std::min(static_cast<float>(std::fabs(sine_elevation)), 1.f);
-    const int node = std::min(static_cast<int>(std::sqrt(sine) * (direction_nodes - 1)), direction_nodes - 2);
-    const float low = sine_of_node(node);
-    result.direction = node;
-    result.direction_share = std::clamp((sine - low) / (sine_of_node(node + 1) - low), 0.f, 1.f);
+    result.direction = phase::node_below_sine(sine);
+    const auto low = static_cast<float>(phase::sine_of_node(result.direction)), high = static_cast<float>(phase::sine_of_node(result.direction + 1));
+    result.direction_share = std::clamp((sine - low) / (high - low), 0.f, 1.f);
     return result;
   }
   /// For the mean over all directions.
@@ -97,9 +97,7 @@ class RatioTable {
   static constexpr float column_nm = 2;
   static constexpr int column_count = static_cast<int>((longest_wavelength_nm - shortest_wavelength_nm) / column_nm) + 1;
 
-  // Of sines from 0 to 1, those of phase::OrientedCrystals; after them the mean over directions.
-  static constexpr int direction_nodes = 65;
-  static constexpr float sine_of_node(int i) { return static_cast<float>(i * i) / ((direction_nodes - 1) * (direction_nodes - 1)); }
+  static constexpr int direction_nodes = phase::sine_node_count;  // after them the mean over directions
 
   int row_count_ = 1;
   bool is_directed_ = false;

@@ -12,6 +12,7 @@
 #include "phase/base/units.h"
 #include "phase/crystal/silhouette_diffraction.h"
 #include "phase/function/half_angle.h"
+#include "phase/population/sine_nodes.h"
 
 namespace arcus::phase {
 namespace {
@@ -48,7 +49,7 @@ OrientedCrystals::OrientedCrystals(const CrystalTableSettings& settings, Oriente
   for (const double size : table_.size_um) nodes_.push_back(std::make_unique<const Node>(settings_, size));
   const std::size_t waves = table_.wavelength_nm.size();
   for (int size = 0; size < size_count(); ++size)
-    for (int i = 0; i < sine_nodes; ++i)
+    for (int i = 0; i < sine_node_count; ++i)
       for (const double nm : table_.wavelength_nm)
         extinction_.push_back(static_cast<float>(extinction_ratio(size, sine_of_node(i), nm)));
   if (table_.elevation_deg.size() < 2) return;
@@ -89,7 +90,7 @@ double OrientedCrystals::extinction_ratio(int size, double sine_elevation, doubl
 double OrientedCrystals::mean_extinction_ratio(int size, double wavelength_nm) const {
   // All sines of elevation are equally likely for random directions; linear between the nodes.
   double sum = 0, before = extinction_ratio(size, 0, wavelength_nm);
-  for (int i = 1; i < sine_nodes; ++i) {
+  for (int i = 1; i < sine_node_count; ++i) {
     const double here = extinction_ratio(size, sine_of_node(i), wavelength_nm);
     sum += 0.5 * (before + here) * (sine_of_node(i) - sine_of_node(i - 1));
     before = here;
@@ -117,9 +118,9 @@ OrientedCrystals::Columns OrientedCrystals::columns_of(const Wavelengths& wavele
 Spectrum OrientedCrystals::extinction(int size, double sine_elevation, const Columns& columns) const {
   const std::size_t waves = table_.wavelength_nm.size();
   const double sine = std::min(std::fabs(sine_elevation), 1.0);
-  const int node = std::min(static_cast<int>(std::sqrt(sine) * (sine_nodes - 1)), sine_nodes - 2);
+  const int node = node_below_sine(sine);
   const auto share = static_cast<float>((sine - sine_of_node(node)) / (sine_of_node(node + 1) - sine_of_node(node)));
-  const float* low = &extinction_[(static_cast<std::size_t>(size) * sine_nodes + static_cast<std::size_t>(node)) * waves];
+  const float* low = &extinction_[(static_cast<std::size_t>(size) * sine_node_count + static_cast<std::size_t>(node)) * waves];
   const float* high = low + waves;
   const std::size_t step = waves > 1 ? 1 : 0;
   Spectrum first, second;

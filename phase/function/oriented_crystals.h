@@ -35,9 +35,6 @@ class OrientedCrystals {
   double extinction_ratio(int size, double sine_elevation, double wavelength_nm) const;
   /// Its mean over all directions.
   double mean_extinction_ratio(int size, double wavelength_nm) const;
-  /// Nodes of extinction_ratio over the sine of the elevation, closer where light grazes flat crystals; linear between.
-  static constexpr int sine_nodes = 65;
-  static constexpr double sine_of_node(int i) { return static_cast<double>(i * i) / ((sine_nodes - 1) * (sine_nodes - 1)); }
 
   /// The phase function from `incoming` to the sun's disc, mean over the disc [1/sr], albedo included: what light of the sun that
   /// leaves against `incoming` amounts to, over the extinction in that direction. Directions are those of a path traced backwards

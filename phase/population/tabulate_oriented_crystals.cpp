@@ -8,12 +8,13 @@
 #include "phase/base/units.h"
 #include "phase/population/map_rays.h"
 #include "phase/population/map_smoother.h"
+#include "phase/population/sine_nodes.h"
 #include "phase/population/tabulate_crystals.h"
 
 namespace arcus::phase {
 namespace {
 
-constexpr int sine_nodes = 65, absorbed_rays = 512;
+constexpr int absorbed_rays = 512;
 /// Light may go straight on after many turns inside flat crystals; a map of few rays needs no better account.
 constexpr int straight_events = 32;
 int straight_rays(double map_rays) { return static_cast<int>(std::clamp(map_rays / 64, 2048.0, 65536.0)); }
@@ -77,18 +78,14 @@ constexpr int light_digits = 9, error_digits = 5;
 void lay_out(OrientedTable& table, const CrystalTableSettings& settings, const SkyGrid& grid) {
   table.size_um = settings.size_um;
   for (const CrystalWave& wave : settings.waves) table.wavelength_nm.push_back(wave.wavelength_nm);
-  // Closer where light grazes flat crystals: their shadow changes there within the angle of their tilt.
-  for (int i = 0; i < sine_nodes; ++i) {
-    const double t = static_cast<double>(i) / (sine_nodes - 1);
-    table.sine_elevation.push_back(t * t);
-  }
+  for (int i = 0; i < sine_node_count; ++i) table.sine_elevation.push_back(sine_of_node(i));
   for (int i = 0; i <= grid.steps(); ++i) {
     table.elevation_deg.push_back(grid.elevation_deg(i));
     table.azimuth_deg.push_back(grid.azimuth_deg(i));
   }
   const std::size_t rows = table.size_um.size() * table.wavelength_nm.size();
-  table.extinction_cross_section_m2.resize(rows * sine_nodes);
-  table.forward_fraction.resize(rows * sine_nodes);
+  table.extinction_cross_section_m2.resize(rows * sine_node_count);
+  table.forward_fraction.resize(rows * sine_node_count);
   table.mean_extinction_cross_section_m2.resize(rows);
   table.albedo.resize(rows);
   table.scattering_m2_per_sr.resize(table.size_um.size() * grid.size() * table.wavelength_nm.size());

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "phase/base/curve.h"
+#include "phase/population/sine_nodes.h"
 
 namespace arcus::phase {
 namespace {
@@ -50,13 +51,13 @@ Species::Species(std::unique_ptr<const OrientedCrystals> crystals) : oriented_(s
   set_sizes(oriented_->table().size_um);
   make_wavelength_grid(nm.front(), nm.back());
   const auto at = [&](int i) { return first_wavelength_nm_ + (wavelengths_per_nm_ > 0 ? i / wavelengths_per_nm_ : 0); };
-  constexpr int nodes = OrientedCrystals::sine_nodes;
+  constexpr int nodes = sine_node_count;
   directed_extinction_ratio_.resize(nodes);
   for (int size = 0; size < oriented_->size_count(); ++size) {
     for (int node = 0; node < nodes; ++node)
       for (int i = 0; i < wavelength_count_; ++i)
         directed_extinction_ratio_[static_cast<std::size_t>(node)].push_back(
-            static_cast<float>(oriented_->extinction_ratio(size, OrientedCrystals::sine_of_node(node), at(i))));
+            static_cast<float>(oriented_->extinction_ratio(size, sine_of_node(node), at(i))));
     for (int i = 0; i < wavelength_count_; ++i)
       extinction_ratio_.push_back(static_cast<float>(oriented_->mean_extinction_ratio(size, at(i))));
   }

@@ -38,8 +38,7 @@ class Species {
   Spectrum extinction_ratio(float size_um, const Wavelengths& wavelengths) const;
   /// True where extinction depends on the direction of the light, and directed_extinction_ratio tells how.
   bool is_oriented() const { return oriented_ != nullptr; }
-  /// The same for light whose direction has the sine of elevation of this node, of OrientedCrystals::sine_nodes; linear between
-  /// them. Only where is_oriented().
+  /// The same for light whose direction has the sine of elevation of this node (sine_nodes.h); linear between them. Only where is_oriented().
   Spectrum directed_extinction_ratio(float size_um, int sine_node, const Wavelengths& wavelengths) const;
   /// Bound of extinction_ratio over all sizes, wavelengths and directions.
   float largest_extinction_ratio() const { return largest_extinction_ratio_; }

@@ -8,6 +8,7 @@
 #include "phase/base/units.h"
 #include "phase/function/phase_function.h"
 #include "phase/optics/sun_disc.h"
+#include "phase/population/sine_nodes.h"
 #include "phase/species/species.h"
 
 namespace arcus::phase {
@@ -105,7 +106,7 @@ TEST(OrientedCrystals, ASpeciesTellsExtinctionByDirectionAndItsBound) {
   settings.map_step_deg = 5;
   const Species species(std::make_unique<const OrientedCrystals>(settings, tabulate_oriented_crystals(settings, 20, 0.27)));
   ASSERT_TRUE(species.is_oriented());
-  const int last = OrientedCrystals::sine_nodes - 1;
+  const int last = sine_node_count - 1;
   const float level = species.directed_extinction_ratio(500, 0, all_at(550))[0], steep = species.directed_extinction_ratio(500, last, all_at(550))[0];
   EXPECT_GT(steep, 0);
   EXPECT_GT(level, 0);

@@ -164,8 +164,8 @@ TEST(IceEnergy, BrightnessGoesWithTheShadowTowardsTheSun) {
   EXPECT_GT(greatest, 3 * least);
 }
 
-// The sun behind a layer of level plates is dimmed by their shadow. Extinction is linear between nodes of the sine of elevation, and
-// near the zenith the shadow of the sides goes as the cosine: there 1 % of the depth is allowed.
+// The sun behind a layer of level plates is dimmed by their shadow. Extinction is linear between nodes of the sine of elevation; nodes that
+// were not close together near the zenith, where the shadow of the sides goes as the cosine, made it 0.8 % too small at 80 degrees.
 TEST(IceEnergy, TheSunIsDimmedByTheShadowTowardsIt) {
   for (const double elevation : {10.0, 50.0, 80.0}) {
     const SunSettings sun = ice_sun(elevation, sun_radius_deg);
@@ -182,7 +182,7 @@ TEST(IceEnergy, TheSunIsDimmedByTheShadowTowardsIt) {
       moments.add(integrator.radiance(ray, wavelengths, {0.5, 0.5, 0.5, random.uniform_double(), random.uniform_double()}, random)[0] / alone);
     const double expected = std::exp(-reach_m * ice.extinction_per_m * relative_shadow(0.1, "plate", elevation));
     std::cout << "sun at " << elevation << ": transmitted " << moments.mean() << " +- " << moments.standard_error() << " expected " << expected << '\n';
-    EXPECT_TRUE(statistics::mean_is(moments, expected, {.comparisons = 3, .tolerance = elevation > 75 ? 0.003 : 0.001}));
+    EXPECT_TRUE(statistics::mean_is(moments, expected, {.comparisons = 3, .tolerance = 0.001}));
     EXPECT_GT(std::fabs(moments.mean() - std::exp(-reach_m * ice.extinction_per_m)), 0.02);
   }
 }
