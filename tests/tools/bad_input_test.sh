@@ -168,8 +168,8 @@ crystal 'orientation = { type = "sideways" }'
 expect 2 "orientation.type.*'sideways'" "$ARCUS" phase compute ice.toml -o ice.nc
 crystal 'material = { n = 0.9, k = 0 }'
 expect 2 'index of 0.9.*above 1' "$ARCUS" phase compute ice.toml -o ice.nc
-printf 'type = "crystal"\nhabit = "prism"\nrays_million = 0\n' >ice.toml
-expect 2 'rays_million: 0 found' "$ARCUS" phase compute ice.toml -o ice.nc
+printf 'type = "crystal"\nhabit = "prism"\nrays_million = -1\n' >ice.toml
+expect 2 'rays_million: -1 found' "$ARCUS" phase compute ice.toml -o ice.nc
 absent ice.nc
 for line in 'aspect_ratio = 1e-4' 'aspect_ratio = 1e4' 'upper_pyramid = { height = 1 }' 'size_um = 10000' 'size_um = [1, 10000]'; do
   crystal "$line"
