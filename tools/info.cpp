@@ -21,6 +21,7 @@
 #include "phase/settings/toml_text.h"
 #include "phase/species/species_cache.h"
 #include "phase/species/make_species.h"
+#include "phase/species/oriented_file.h"
 #include "phase/species/species_file.h"
 #include "src/film/image_file.h"
 #include "src/scene/settings.h"
@@ -195,6 +196,29 @@ Json table_facts(const std::string& path) {
           {"recipe", file.recipe}};
 }
 
+Json oriented_facts(const std::string& path) {
+  const phase::OrientedFile file = phase::read_oriented_file(path);
+  const phase::OrientedTable& table = file.table;
+  const auto [least_forward, most_forward] = std::minmax_element(table.forward_fraction.begin(), table.forward_fraction.end());
+  std::vector<float> errors = table.relative_error;
+  const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
+  std::nth_element(errors.begin(), middle, errors.end());
+  return {{"file", path},
+          {"sun_elevation_deg", table.sun_elevation_deg},
+          {"sun_angular_radius_deg", table.sun_angular_radius_deg},
+          {"sizes", table.size_um.size()},
+          {"size_um", {table.size_um.front(), table.size_um.back()}},
+          {"wavelengths", table.wavelength_nm.size()},
+          {"wavelength_nm", {table.wavelength_nm.front(), table.wavelength_nm.back()}},
+          {"elevations", table.elevation_deg.size()},
+          {"azimuths", table.azimuth_deg.size()},
+          {"forward_fraction", {*least_forward, *most_forward}},
+          {"median_relative_error", *middle},
+          {"table_id", file.id},
+          {"program_version", file.program_version},
+          {"recipe", file.recipe}};
+}
+
 Json picture_facts(const std::string& path) {
   const render::Image image = render::read_exr(path);
   Json facts{{"file", path},
@@ -271,7 +295,7 @@ void run(const InfoCommand& command) {
     facts = vdb_facts(command.file, command.cache_folder.empty() ? phase::default_cache_folder() : command.cache_folder,
                       command.png);
   } else if (ending == ".nc") {
-    facts = table_facts(command.file);
+    facts = phase::is_oriented_file(command.file) ? oriented_facts(command.file) : table_facts(command.file);
   } else if (ending == ".exr") {
     facts = picture_facts(command.file);
   } else if (ending == ".toml") {

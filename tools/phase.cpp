@@ -17,6 +17,8 @@
 #include "phase/settings/toml_text.h"
 #include "phase/species/evaluate.h"
 #include "phase/species/make_species.h"
+#include "phase/species/oriented_file.h"
+#include "phase/optics/sun_disc.h"
 #include "phase/species/species_cache.h"
 #include "phase/species/species_file.h"
 #include "tools/command.h"
@@ -95,6 +97,7 @@ void run_eval(const EvalCommand& command) {
 
 struct ComputeCommand {
   std::string recipe, output, cache_folder;
+  double sun_elevation_deg = 20, sun_radius_deg = phase::mean_sun_radius_deg;
   bool quiet = false;
 };
 
@@ -107,6 +110,15 @@ void run_compute(const ComputeCommand& command) {
     options.log = [](std::string_view text) { std::cerr << text << '\n'; };
     if (::isatty(STDERR_FILENO) == 1)
       options.progress = [](double share) { std::fprintf(stderr, "\r%3.0f %%%s", 100 * share, share >= 1 ? "\n" : ""); };
+  }
+  if (recipe.is_oriented()) {
+    phase::OrientedFile file;
+    file.id = phase::oriented_table_id(recipe, command.sun_elevation_deg, command.sun_radius_deg);
+    file.table = phase::oriented_table_of(recipe, command.sun_elevation_deg, command.sun_radius_deg, options);
+    file.recipe = text_of(recipe);
+    if (command.output.empty()) std::cout << phase::SpeciesCache(options.cache_folder).path_of(file.id) << '\n';
+    else phase::write_oriented_file(command.output, file);
+    return;
   }
   phase::SpeciesFile file;
   file.table = phase::table_of(recipe, options);
@@ -151,6 +163,10 @@ void add_phase(CLI::App& program) {
     CLI::App* app = phase->add_subcommand("compute", "The table of a recipe as NetCDF-4, kept in the cache");
     app->add_option("RECIPE", command->recipe, "recipe file (TOML)")->required();
     app->add_option("-o,--output", command->output, "OUT.nc (default: print the name of the file in the cache)");
+    app->add_option("--sun-elevation-deg", command->sun_elevation_deg, "oriented crystals: how high the sun of the map stands")
+        ->check(CLI::Range(-90.0, 90.0))->capture_default_str();
+    app->add_option("--sun-radius-deg", command->sun_radius_deg, "oriented crystals: radius of the sun's disc")
+        ->check(CLI::Range(0.0, 30.0))->capture_default_str();
     app->add_option("--cache", command->cache_folder, "folder of the phase tables (default: $XDG_CACHE_HOME/arcus/phase)");
     app->add_flag("--quiet", command->quiet, "say nothing but errors");
     app->callback([command] { run_compute(*command); });

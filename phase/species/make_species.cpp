@@ -51,7 +51,8 @@ std::unique_ptr<const OrientedCrystals> oriented_crystals(const Recipe& recipe, 
 ScatteringTable compute_table(const Recipe& recipe, const std::function<void(double)>& progress) {
   if (recipe.type == "table") return read_table_file(recipe.file).table;
   if (recipe.is_oriented())
-    throw bad_input("orientation.type", "'" + recipe.crystal.orientation.type + "'", "a table by scattering angle needs 'random'");
+    throw bad_input("orientation.type", "'" + recipe.crystal.orientation.type + "'", "only crystals at random scatter by the angle alone",
+                    "phase compute and phase plot make a map of the sky of others");
   if (recipe.is_crystal()) return tabulate_random_crystals(crystal_settings_of(recipe), progress);
   if (!recipe.is_sphere())
     throw bad_input("type", "'" + recipe.type + "'", "a recipe with a table expected", "Use mie, rain, crystal or table");

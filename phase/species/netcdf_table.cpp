@@ -186,6 +186,18 @@ struct NetcdfTableReader::File {
   std::vector<std::size_t> lengths;
 };
 
+int netcdf_table_format(const std::string& path) {
+  if (!std::filesystem::is_regular_file(path)) throw bad_input(path, "no file", "a table in NetCDF-4 expected");
+  if (!is_sealed(bytes_of(path)))
+    throw bad_input(path, "a file that is not as it was written", "a whole table in NetCDF-4 expected", "The file may be damaged");
+  const std::lock_guard guard(netcdf_library());
+  int id = 0, format = 0;
+  if (nc_open(path.c_str(), NC_NOWRITE, &id) != NC_NOERR) return 0;
+  if (nc_get_att_int(id, NC_GLOBAL, "arcus_format", &format) != NC_NOERR) format = 0;
+  nc_close(id);
+  return format;
+}
+
 NetcdfTableReader::NetcdfTableReader(const std::string& path, const std::string& what, int format)
     : file_(std::make_unique<File>()) {
   file_->path = path;

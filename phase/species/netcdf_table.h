@@ -36,6 +36,9 @@ class NetcdfTableWriter {
   std::unique_ptr<File> file_;
 };
 
+/// The attribute arcus_format of a sealed file; 0 where it has none. Throws bad_input where the file is missing or not sealed.
+int netcdf_table_format(const std::string& path);
+
 class NetcdfTableReader {
  public:
   /// what: such as "phase table", for messages. Throws bad_input where the file is missing, not sealed, or of another format (the

@@ -96,6 +96,8 @@ OrientedFile read_oriented_file(const std::string& path) {
   return file;
 }
 
+bool is_oriented_file(const std::string& path) { return netcdf_table_format(path) == format; }
+
 std::string oriented_table_id(const Recipe& recipe, double sun_elevation_deg, double sun_angular_radius_deg, const PathFilter& paths) {
   // Recipes of crystals at random say nothing about maps, so that their own tables do not depend on it.
   const std::string map = recipe.is_oriented() ? "" : " step " + number_text(recipe.map_step_deg) + " noise " + number_text(recipe.map_noise);

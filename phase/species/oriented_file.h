@@ -23,6 +23,9 @@ void write_oriented_file(const std::string& path, const OrientedFile& file);
 /// was written.
 OrientedFile read_oriented_file(const std::string& path);
 
+/// Whether a file holds such a table; throws bad_input where it is missing or not as it was written.
+bool is_oriented_file(const std::string& path);
+
 /// 32 hexadecimal digits that name the table of a recipe under a sun; the radius is that of its disc. paths: the light in the map.
 std::string oriented_table_id(const Recipe& recipe, double sun_elevation_deg, double sun_angular_radius_deg,
                               const PathFilter& paths = {});

@@ -105,6 +105,18 @@ expect 0 '# no light fell there' "$ARCUS" phase plot plate.toml --paths-at 0,66 
 check 'phase plot --paths-at --json is no JSON' is_json paths.json
 check 'a path has a share' grep -q '"share"' paths.json
 
+# Crystals that lie level, from the recipe to a picture.
+printf 'type = "crystal"\nhabit = "plate"\nwavelength_nm = { min = 450, max = 650, nodes = 3 }\nrays_million = 0.02\nmap_step_deg = 2\n' >level.toml
+must "$ARCUS" phase compute level.toml --sun-elevation-deg 30 -o level.nc --quiet
+check 'the dimensions of a map' bash -c 'ncdump -h level.nc | grep -q "scattering(size_um, elevation_deg, azimuth_deg, wavelength_nm)"'
+expect 0 'sun_elevation_deg: 30' "$ARCUS" info level.nc
+must "$ARCUS" author box -o level.vdb --name ice --optical-depth 0.3 --centre-m 0,0,5000 --size-m 50000,50000,100 --voxels 4,4,4 --phase-type crystal \
+  --phase-habit plate --phase-wavelength-nm 450,550,650 --phase-rays-million 0.02 --phase-map-step-deg 2 --quiet
+printf '[render]\nsamples_per_pixel = 4\n[camera]\nresolution = [16, 12]\nazimuth_deg = 180\nelevation_deg = 30\n[sun]\nelevation_deg = 30\n[sky]\ntype = "none"\n' >dogs.toml
+printf '[[medium]]\nvdb = "level.vdb"\n[[medium]]\nvdb = "level.vdb"\ntranslate_m = [0, 0, -4000]\nphase = { type = "isotropic" }\n' >>dogs.toml
+must "$ARCUS" render dogs.toml -o dogs.exr --quiet
+check 'crystals and other particles make a picture' is_png dogs.png
+
 # A table from elsewhere: named relative to its recipe, and rendered from any folder.
 mkdir -p tables/scenes
 printf 'angle 450 650\n0 30 20\n90 1 1\n180 2 1\n' >tables/t.txt
