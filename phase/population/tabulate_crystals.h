@@ -21,7 +21,7 @@ struct CrystalTableSettings {
   std::vector<CrystalWave> waves;   ///< by wavelength node, ascending
   bool diffraction = true;          ///< false: rays only, extinction efficiency 1
   bool remove_forward = true;       ///< light that goes straight on counts as not stopped
-  double rays = 16e6;               ///< at each wavelength
+  double rays = 4e6;                ///< at each wavelength
   double map_step_deg = 0.1;        ///< oriented
   double map_noise = 0.03;          ///< oriented: relative standard error up to which the map is smoothed
   PathFilter map_paths;             ///< oriented: other light is not in the map; extinction and albedo are those of all

@@ -112,7 +112,7 @@ void one_by_one(benchmark::State& state, const char* name, bool drawn) {
   state.counters["entering"] = rate(static_cast<double>(state.iterations()));
 }
 
-/// The maps of a display of plates and columns under a sun at 20 degrees: 0.1 degrees, 21 wavelengths, 16 million rays each.
+/// The maps of a display of plates and columns under a sun at 20 degrees: 0.1 degrees, 21 wavelengths, 4 million rays each.
 void display_map(benchmark::State& state) {
   const RefractiveIndex ice = RefractiveIndex::ice();
   double error = 0;
