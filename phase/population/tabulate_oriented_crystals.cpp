@@ -8,6 +8,7 @@
 #include "phase/base/units.h"
 #include "phase/population/map_rays.h"
 #include "phase/population/map_smoother.h"
+#include "phase/population/progress.h"
 #include "phase/population/sine_nodes.h"
 #include "phase/population/tabulate_crystals.h"
 
@@ -19,22 +20,6 @@ constexpr int absorbed_rays = 512;
 constexpr int straight_events = 32;
 int straight_rays(double map_rays) { return static_cast<int>(std::clamp(map_rays / 64, 2048.0, 65536.0)); }
 constexpr std::uint64_t map_seed = 0x6d6170, account_seed = 0x616363;
-
-/// Tells how much is done, one thread at a time.
-class Work {
- public:
-  Work(const std::function<void(double)>& progress, double whole) : progress_(progress), whole_(whole) {}
-  void done(double amount) {
-    const std::lock_guard guard(mutex_);
-    done_ += amount;
-    if (progress_) progress_(std::min(1.0, done_ / whole_));
-  }
-
- private:
-  const std::function<void(double)>& progress_;
-  double whole_, done_ = 0;
-  std::mutex mutex_;
-};
 
 /// A sum of planes that come in any order, added in their own, so that it is the same for any number of threads.
 class SumInOrder {
