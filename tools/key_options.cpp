@@ -52,6 +52,7 @@ class Adder : public Keys {
   void vector3(std::string_view name, Vec3& value, std::string_view meaning) override {
     add(name, meaning, "X,Y,Z", joined({value.x, value.y, value.z}), -1);
   }
+  void box(std::string_view name, Vec3&, Vec3&, std::string_view meaning) override { add(name, meaning, "'[[X, Y, Z], [X, Y, Z]]'", "", 1); }
   bool only_if(bool, std::string_view note) override {
     note_ = note;
     return true;

@@ -14,11 +14,11 @@ CollisionWalk CollisionWalk::forced(const Medium& medium, const Ray& ray, const 
   return walk;
 }
 
-double majorant_depth(const Medium& medium, const Ray& ray) {
+double majorant_depth(const Medium& medium, const Ray& ray, double enough) {
   MajorantWalk walk(medium.majorants(), ray);
   double depth = 0;
   Segment segment;
-  while (walk.next(segment)) depth += (segment.end_m - segment.begin_m) * segment.majorant_per_m;
+  while (depth < enough && walk.next(segment)) depth += (segment.end_m - segment.begin_m) * segment.majorant_per_m;
   return depth;
 }
 

@@ -60,7 +60,8 @@ class CollisionWalk {
   double next_depth_;  // from the present place to the next tentative collision, in the majorant's optical depth
 };
 
-/// Integral of the majorant along a ray: the expected number of tentative collisions. Looks at cells only, no voxels.
-double majorant_depth(const Medium& medium, const Ray& ray);
+/// Integral of the majorant along a ray: the expected number of tentative collisions. Looks at cells only, no voxels, and at no
+/// more of them once it has found `enough`: the answer is then that or more.
+double majorant_depth(const Medium& medium, const Ray& ray, double enough = std::numeric_limits<double>::infinity());
 
 }  // namespace arcus::media

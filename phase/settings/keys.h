@@ -58,6 +58,8 @@ class Keys {
   virtual void nodes(std::string_view name, std::vector<double>& values, const Range& range, Spacing spacing,
                      std::string_view meaning) = 0;
   virtual void vector3(std::string_view name, Vec3& value, std::string_view meaning) = 0;
+  /// Two opposite corners of a box along the axes, [[x, y, z], [x, y, z]]; the file may give them in any order.
+  virtual void box(std::string_view name, Vec3& low, Vec3& high, std::string_view meaning) = 0;
 
   /// A table with settings of its own.
   template <class S>

@@ -101,6 +101,9 @@ class Page : public Documenter {
   void vector3(std::string_view name, Vec3& value, std::string_view meaning) override {
     row(name, number_list({value.x, value.y, value.z}), "[x, y, z]", meaning);
   }
+  void box(std::string_view name, Vec3& low, Vec3& high, std::string_view meaning) override {
+    row(name, "[" + number_list({low.x, low.y, low.z}) + ", " + number_list({high.x, high.y, high.z}) + "]", "[[x, y, z], [x, y, z]]", meaning);
+  }
 
  protected:
   bool begin_table(std::string_view name, std::string_view meaning) override {
@@ -209,6 +212,11 @@ class Schema : public Documenter {
   void vector3(std::string_view name, Vec3&, std::string_view meaning) override {
     property(name, meaning,
              "\"type\": \"array\", \"minItems\": 3, \"maxItems\": 3, \"items\": {\"type\": \"number\"}");
+  }
+  void box(std::string_view name, Vec3&, Vec3&, std::string_view meaning) override {
+    property(name, meaning,
+             "\"type\": \"array\", \"minItems\": 2, \"maxItems\": 2, \"items\": {\"type\": \"array\", \"minItems\": 3, "
+             "\"maxItems\": 3, \"items\": {\"type\": \"number\"}}");
   }
 
  protected:

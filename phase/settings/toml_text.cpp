@@ -116,6 +116,21 @@ class Reader : public Keys {
     value = Vec3(values[0], values[1], values[2]);
   }
 
+  void box(std::string_view name, Vec3& low, Vec3& high, std::string_view) override {
+    const toml::node* node = find(name);
+    if (!node) return;
+    const char* expected = "must be two corners, [[x, y, z], [x, y, z]]";
+    const auto* corners = node->as_array();
+    if (!corners || corners->size() != 2 || !corners->is_homogeneous(toml::node_type::array)) fail(*node, name, kind_of(*node), expected);
+    const auto a = numbers_at(*corners->get(0), name, any()), b = numbers_at(*corners->get(1), name, any());
+    if (a.size() != 3 || b.size() != 3) fail(*node, name, std::to_string(a.size()) + " and " + std::to_string(b.size()) + " numbers", expected);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<std::size_t>(axis);
+      low[axis] = std::min(a[i], b[i]);
+      high[axis] = std::max(a[i], b[i]);
+    }
+  }
+
   bool only_if(bool condition, std::string_view) override { return condition; }
   bool is_given(std::string_view name) const override { return levels_.back().table->contains(name); }
   [[noreturn]] void refuse(std::string_view name, std::string_view found, std::string_view expected) const override {

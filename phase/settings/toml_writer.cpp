@@ -44,6 +44,10 @@ class Writer : public Keys {
   void vector3(std::string_view name, Vec3& value, std::string_view) override {
     line(name, "[" + number_text(value.x) + ", " + number_text(value.y) + ", " + number_text(value.z) + "]");
   }
+  void box(std::string_view name, Vec3& low, Vec3& high, std::string_view) override {
+    const auto corner = [](const Vec3& v) { return "[" + number_text(v.x) + ", " + number_text(v.y) + ", " + number_text(v.z) + "]"; };
+    line(name, "[" + corner(low) + ", " + corner(high) + "]");
+  }
   bool only_if(bool condition, std::string_view) override { return condition; }
   bool is_given(std::string_view) const override { return false; }
   [[noreturn]] void refuse(std::string_view name, std::string_view found, std::string_view expected) const override {

@@ -43,12 +43,14 @@ float promise(float share_to_sun, double to_sun_density_per_sr) {
   return share_to_sun == 0 ? 1 : std::max(1.f, static_cast<float>(0.5 * 4 * pi * to_sun_density_per_sr));
 }
 
+/// Where a clear body is there is no medium.
+bool is_within_body(const std::optional<Hit>& hit) { return hit && hit->from_inside && hit->material->body(); }
+
 }  // namespace
 
-struct VolumePath::Path {
+struct VolumePath::Path : PathLight {
   media::Ray ray;
-  Spectrum weight = Spectrum::filled(1);   ///< contribution over the hero's density
-  Spectrum density = Spectrum::filled(1);  ///< had that wavelength led, over the hero's
+  Departure departure;  ///< of the ray
   /// Share that a direct hit of the sun's disc counts: the rest was, or will be, found by asking the sun. 1 for what
   /// the camera sees directly.
   float sun_share = 1;
@@ -61,7 +63,12 @@ struct VolumePath::Path {
   /// True where one wavelength alone is left, the hero.
   bool is_alone() const { return density[1] == 0 && density[2] == 0 && density[3] == 0; }
 
-  Spectrum contribution(const Spectrum& light) const { return weight * light / density.mean(); }
+  /// Sets out from a place within a medium.
+  void leave(const Vec3& position_m, const Vec3& direction) {
+    ray = media::Ray{position_m, direction};
+    departure = {};
+    polarised.depolarise();
+  }
 
   void pass_null_collision(const media::Collision& collision) {
     const Spectrum null = Spectrum::filled(collision.majorant_per_m) - collision.extinction_per_m;
@@ -95,13 +102,18 @@ VolumePath::VolumePath(const Scene& scene, long long max_bounces, SunReach sun_r
 Spectrum VolumePath::radiance(const media::Ray& camera_ray, const Wavelengths& wavelengths, const FirstNumbers& first,
                               Random& random, Work& work) const {
   Sample sample{wavelengths, random, work, scene_.sun.light(wavelengths), {}};
-  Path path{.ray = camera_ray};
+  Path path;
+  path.ray = camera_ray;
   const auto hit = scene_.surfaces.nearest_hit(path.ray);
   if (hit) path.ray.farthest_m = hit->distance_m;
+  if (is_within_body(hit)) {
+    if (pass(path, hit, sample)) follow(path, sample);
+    return sample.total;
+  }
 
   // Thin media: most camera rays would meet nothing. The ray is split in two, the share that meets no tentative
   // collision and the rest, whose first one is placed by an evenly spread number; their weights add up to 1.
-  const double depth = media::majorant_depth(*scene_.medium, path.ray);
+  const double depth = media::majorant_depth(*scene_.medium, path.ray, most_forced_depth);
   if (depth > 0 && depth < most_forced_depth) {
     Path straight = path;
     straight.weight *= static_cast<float>(std::exp(-depth));
@@ -130,8 +142,12 @@ void VolumePath::follow(Path& path, Sample& sample) const {
         follow(part, sample);
       }
     }
-    const auto hit = scene_.surfaces.nearest_hit(path.ray);
+    const auto hit = scene_.surfaces.nearest_hit(path.ray, path.departure);
     if (hit) path.ray.farthest_m = hit->distance_m;
+    if (is_within_body(hit)) {
+      goes_on = pass(path, hit, sample);
+      continue;
+    }
     media::CollisionWalk walk(*scene_.medium, path.ray, sample.wavelengths, sample.random);
     goes_on = advance(path, walk, hit, sample);
   }
@@ -156,8 +172,7 @@ bool VolumePath::pass(Path& path, const std::optional<Hit>& hit, Sample& sample)
     return false;
   }
   if (path.bounces++ == max_bounces_) return false;
-  reflect(path, *hit, sample);
-  return true;
+  return meet(path, *hit, sample);
 }
 
 Spectrum VolumePath::escaped(const Path& path, const Sample& sample) const {
@@ -208,14 +223,14 @@ bool VolumePath::scatter(Path& path, const media::Collision& collision, Sample& 
       const Spectrum value = function.sunlit_value(incoming, sun.to_centre(), wavelengths);
       if (const float weight = sun_ray_weight(value); weight > 0)
         sample.total += path.contribution(value * sample.sunlight.irradiance_w_per_m2_nm *
-                                          sun_transmittance(collision.position_m, to_sun, sample)) * weight;
+                                          sun_transmittance(collision.position_m, {}, to_sun, sample)) * weight;
     } else {
       const Spectrum value = function.value(incoming, to_sun, wavelengths);
       const double asked = path.density.mean() * sun.density_per_sr(to_sun);
       const double found = (path.density * density(to_sun, value).all).mean();
       if (const float weight = sun_ray_weight(value); weight > 0)
         sample.total += path.contribution(value * sun.radiance(to_sun, sample.sunlight) *
-                                          sun_transmittance(collision.position_m, to_sun, sample)) *
+                                          sun_transmittance(collision.position_m, {}, to_sun, sample)) *
                         static_cast<float>(weight * path.density.mean() / (asked + found));
     }
   }
@@ -237,7 +252,7 @@ bool VolumePath::scatter(Path& path, const media::Collision& collision, Sample& 
     leaving.density *= densities.all / densities.all[0];
     // Of all wavelengths alike: it decides the next share, which must not depend on which of them leads.
     leaving.promise = promise(to_sun_share, densities.to_sun.mean());
-    leaving.ray = media::Ray{collision.position_m, outgoing};
+    leaving.leave(collision.position_m, outgoing);
   };
   if (to_sun_share > 0 && random.uniform() < to_sun_share) {
     Path second = path;
@@ -271,54 +286,67 @@ void VolumePath::part(const Path& path, const media::Collision& collision, const
     one.weight = draw.value_per_sr * share[j];
     one.sun_share = 0;
     one.promise = 1;
-    one.ray = media::Ray{collision.position_m, draw.outgoing};
+    one.leave(collision.position_m, draw.outgoing);
     follow(one, alone);
     std::swap(alone.total[0], alone.total[j]);
     sample.total += alone.total;
   }
 }
 
-void VolumePath::reflect(Path& path, const Hit& hit, Sample& sample) const {
+bool VolumePath::meet(Path& path, const Hit& hit, Sample& sample) const {
+  ++sample.work.surface_hits;
+  dim(path, hit, sample.wavelengths);
+  if (const Matte* matte = hit.material->matte()) {
+    reflect(path, hit, *matte, sample);
+    return true;
+  }
+  // Nothing was asked for light that arrives this way, so a direct hit of the sun counts in full.
+  path.sun_share = 1;
+  path.promise = 1;
+  return turn_at_smooth(path, path.ray, path.departure, hit, sample.wavelengths, sample.random);
+}
+
+void VolumePath::reflect(Path& path, const Hit& hit, const Matte& material, Sample& sample) const {
   const Wavelengths& wavelengths = sample.wavelengths;
   Random& random = sample.random;
-  const Matte& material = *hit.material;
   const Sun& sun = scene_.sun;
   const float to_sun_share = sun.is_on() && !scene_.medium->is_empty() ? paths_to_sun : 0;
   const auto to_sun_density = [&](const Vec3& away) {
     return to_sun_share > 0 ? glow.value(sun.to_centre(), away, wavelengths)[0] : 0;
   };
   const auto density = [&](const Vec3& away) {
-    return material.density_per_sr(hit.normal, away) + to_sun_share * to_sun_density(away);
+    return Matte::density_per_sr(hit.normal, away) + to_sun_share * to_sun_density(away);
   };
+  const Departure departure = hit.departure(false);
+  path.polarised.depolarise();
   if (sun.is_on()) {
     const Vec3 to_sun = sun.draw(random.uniform_double(), random.uniform_double());
-    const double value = material.value_per_sr(hit.normal, to_sun);
-    if (value > 0) {
-      const double cosine = dot(hit.normal, to_sun);
-      sample.total += path.contribution(sun.radiance(to_sun, sample.sunlight) *
-                                 sun_transmittance(hit.position_m, to_sun, sample)) *
-               static_cast<float>(value * cosine / (sun.density_per_sr(to_sun) + density(to_sun)));
-    }
+    const double cosine = dot(hit.normal, to_sun);
+    if (cosine > 0)
+      sample.total += path.contribution(sun.radiance(to_sun, sample.sunlight) * material.value_per_sr(hit.position_m, hit.normal, to_sun, wavelengths) *
+                                        sun_transmittance(hit.position_m, departure, to_sun, sample)) *
+                      static_cast<float>(cosine / (sun.density_per_sr(to_sun) + density(to_sun)));
   }
   const auto leave = [&](Path& leaving, const Vec3& away) {
     const double cosine = dot(hit.normal, away), found = density(away);
     leaving.sun_share = static_cast<float>(found / (sun.density_per_sr(away) + found));
-    leaving.weight *= cosine > 0 ? static_cast<float>(material.value_per_sr(hit.normal, away) * cosine / found) : 0.f;
+    leaving.weight *= cosine > 0 ? material.value_per_sr(hit.position_m, hit.normal, away, wavelengths) * static_cast<float>(cosine / found) : Spectrum();
     leaving.promise = promise(to_sun_share, to_sun_density(away));
     leaving.ray = media::Ray{hit.position_m, away};
+    leaving.departure = departure;
   };
   if (to_sun_share > 0 && random.uniform() < to_sun_share) {
     Path second = path;
     leave(second, glow.draw(sun.to_centre(), wavelengths, random).outgoing);
     follow(second, sample);
   }
-  leave(path, material.draw(hit.normal, random.uniform_double(), random.uniform_double()));
+  leave(path, Matte::draw(hit.normal, random.uniform_double(), random.uniform_double()));
 }
 
-Spectrum VolumePath::sun_transmittance(const Vec3& position_m, const Vec3& to_sun, Sample& sample) const {
+Spectrum VolumePath::sun_transmittance(const Vec3& position_m, const Departure& departure, const Vec3& to_sun, Sample& sample) const {
   ++sample.work.sun_rays;
   const media::Ray ray{position_m, to_sun};
-  if (scene_.surfaces.is_blocked(ray)) return {};
+  if (scene_.surfaces.is_blocked(ray, departure)) return {};
   return media::ratio_transmittance(*scene_.medium, ray, sample.wavelengths, sample.random);
 }
 

@@ -13,27 +13,14 @@
 #include "media/tracking/collision_walk.h"
 #include "phase/base/random.h"
 #include "phase/function/phase_function.h"
-#include "src/integrator/sample_points.h"
+#include "src/integrator/integrator.h"
+#include "src/integrator/smooth_surface.h"
 #include "src/integrator/sun_reach.h"
 #include "src/scene/scene.h"
 
 namespace arcus::render {
 
-/// What estimates took, counted.
-struct Work {
-  long long scatterings = 0;            ///< in media
-  long long tentative_collisions = 0;   ///< of paths, real ones included; not those of rays to the sun
-  long long sun_rays = 0;               ///< from points in media and on surfaces
-
-  Work& operator+=(const Work& other) {
-    scatterings += other.scatterings;
-    tentative_collisions += other.tentative_collisions;
-    sun_rays += other.sun_rays;
-    return *this;
-  }
-};
-
-class VolumePath {
+class VolumePath : public Integrator {
  public:
   /// max_bounces: scatterings and reflections a path may have; 0 shows only what is seen directly.
   VolumePath(const Scene& scene, long long max_bounces);
@@ -43,7 +30,7 @@ class VolumePath {
   /// An unbiased estimate of the radiance that arrives along the ray against its direction [W m-2 sr-1 nm-1]. Adds to `work` what
   /// it took.
   Spectrum radiance(const media::Ray& camera_ray, const Wavelengths& wavelengths, const FirstNumbers& first,
-                    Random& random, Work& work) const;
+                    Random& random, Work& work) const override;
   Spectrum radiance(const media::Ray& camera_ray, const Wavelengths& wavelengths, const FirstNumbers& first, Random& random) const {
     Work work;
     return radiance(camera_ray, wavelengths, first, random, work);
@@ -71,10 +58,11 @@ class VolumePath {
   bool scatter(Path& path, const media::Collision& collision, Sample& sample) const;
   /// Goes on from a scattering with each wavelength by itself.
   void part(const Path& path, const media::Collision& collision, const phase::PhaseFunction& function, Sample& sample) const;
-  /// Reflects from a surface: adds sunlight, turns the path.
-  void reflect(Path& path, const Hit& hit, Sample& sample) const;
-  /// Share of the sun's light that reaches a point from a direction [0 to 1].
-  Spectrum sun_transmittance(const Vec3& position_m, const Vec3& to_sun, Sample& sample) const;
+  /// Reflects from a surface, or goes through it: adds sunlight, turns the path. False where it ends.
+  bool meet(Path& path, const Hit& hit, Sample& sample) const;
+  void reflect(Path& path, const Hit& hit, const Matte& material, Sample& sample) const;
+  /// Share of the sun's light that reaches a point from a direction without detours [0 to 1].
+  Spectrum sun_transmittance(const Vec3& position_m, const Departure& departure, const Vec3& to_sun, Sample& sample) const;
 
   const Scene& scene_;
   long long max_bounces_;

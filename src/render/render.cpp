@@ -6,9 +6,11 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <memory>
 #include <mutex>
 #include <thread>
 
+#include "src/integrator/make_integrator.h"
 
 namespace arcus::render {
 namespace {
@@ -52,7 +54,7 @@ class Reporter {
 RunResult render(const Scene& scene, const RenderSettings& settings, const RunOptions& options, Film& film) {
   const auto begin = Clock::now();
   const auto seconds_since_begin = [begin] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
-  const VolumePath integrator(scene, settings.max_bounces);
+  const std::unique_ptr<const Integrator> integrator = make_integrator(scene, settings);
   const auto seed = static_cast<std::uint64_t>(settings.seed);
   const PixelBox area = film.box();
   const int blocks_x = (area.width() + block_size - 1) / block_size;
@@ -90,7 +92,7 @@ RunResult render(const Scene& scene, const RenderSettings& settings, const RunOp
       Random random(seed, pixel, sample);
       const Wavelengths wavelengths = draw_wavelengths(numbers.wavelength);
       const auto ray = scene.camera->ray(x + numbers.pixel_x, y + numbers.pixel_y);
-      const Spectrum radiance = ray ? integrator.radiance(*ray, wavelengths, numbers, random, work) : Spectrum();
+      const Spectrum radiance = ray ? integrator->radiance(*ray, wavelengths, numbers, random, work) : Spectrum();
       film.add_sample(x, y, sample, radiance, wavelengths);
     }
     return std::max(last - first, 0LL);

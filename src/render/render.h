@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "src/film/film.h"
-#include "src/integrator/volume_path.h"
+#include "src/integrator/integrator.h"
 #include "src/scene/scene.h"
 #include "src/scene/settings.h"
 

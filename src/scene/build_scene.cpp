@@ -10,6 +10,7 @@
 #include "phase/settings/number_text.h"
 #include "phase/settings/toml_text.h"
 #include "phase/species/make_species.h"
+#include "src/scene/colour_spectrum.h"
 
 namespace arcus::render {
 namespace {
@@ -98,6 +99,17 @@ void report_depth(const media::Medium& medium, const BuildOptions& options) {
   options.log(text);
 }
 
+Surfaces make_surfaces(const SceneSettings& scene) {
+  SurfaceParts parts;
+  for (const SurfaceSettings& surface : scene.surfaces) parts.add(surface, scene.folder, spectrum_of_colour);
+  for (std::size_t i = 0; i < scene.droplets.size(); ++i) {
+    const DropletsSettings& drops = scene.droplets[i];
+    const std::string where = scene.path + ": droplets[" + std::to_string(i) + "]";
+    parts.add(drops_in_box(drops, where), make_material(drops.material, scene.folder, spectrum_of_colour));
+  }
+  return Surfaces(std::move(parts), scene.render.intersector == "exhaustive");
+}
+
 }  // namespace
 
 Scene build_scene(const SceneSettings& settings, const BuildOptions& options) {
@@ -110,7 +122,7 @@ Scene build_scene(const SceneSettings& settings, const BuildOptions& options) {
   return Scene{.medium = std::move(medium),
                .sun = Sun(settings.sun, irradiance),
                .sky = Sky(settings.sky, irradiance),
-               .surfaces = Surfaces(settings.surfaces),
+               .surfaces = make_surfaces(settings),
                .camera = make_camera(settings.camera)};
 }
 

@@ -7,7 +7,11 @@
 namespace arcus::render {
 
 void list_keys(Keys& keys, RenderSettings& render) {
-  keys.choice("integrator", render.integrator, {"volume_path"}, "how light is followed");
+  keys.choice("integrator", render.integrator, {"volume_path", "ray_cast", "whitted", "path"},
+              "how light is followed. volume_path: paths through media and surfaces; path: surfaces alone; whitted: a tree of reflected and "
+              "transmitted rays; ray_cast: the first surface without shadows");
+  keys.choice("intersector", render.intersector, {"hierarchy", "exhaustive"},
+              "how the first surface is found; exhaustive: by asking every one, for measurement alone");
   keys.integer("samples_per_pixel", render.samples_per_pixel, between(1, 4294967295.0), "paths a pixel");
   keys.integer("max_bounces", render.max_bounces, between(0, 1e9),
                "scatterings and reflections a path may have; 0: only what is seen directly");
@@ -41,6 +45,7 @@ void list_keys(Keys& keys, SceneSettings& scene) {
   keys.table("sky", scene.sky, "all other light from outside");
   keys.tables("medium", scene.media, "what scatters");
   keys.tables("surface", scene.surfaces, "what stands in it");
+  keys.tables("droplets", scene.droplets, "explicit drops, for comparison with a medium");
 }
 
 SceneSettings read_scene(const std::string& path, std::span<const std::string> overrides) {

@@ -11,13 +11,15 @@
 #include "src/film/film.h"
 #include "src/light/sky.h"
 #include "src/light/sun.h"
+#include "src/shape/droplets.h"
 #include "src/shape/surfaces.h"
 
 namespace arcus::render {
 
 /// How a picture is computed.
 struct RenderSettings {
-  std::string integrator = "volume_path";
+  std::string integrator = "volume_path";  ///< volume_path | ray_cast | whitted | path
+  std::string intersector = "hierarchy";   ///< hierarchy | exhaustive
   long long samples_per_pixel = 64;
   long long max_bounces = 128;  ///< scatterings and reflections a path may have; 0: only what is seen directly
   long long seed = 1;
@@ -49,6 +51,7 @@ struct SceneSettings {
   SkySettings sky;
   std::vector<MediumSettings> media;
   std::vector<SurfaceSettings> surfaces;
+  std::vector<DropletsSettings> droplets;
   std::string folder;  ///< of the scene file: relative paths start here; not a key
   std::string path;    ///< of the scene file, for messages; not a key
 };

@@ -1,21 +1,18 @@
 #pragma once
-// Surfaces of a scene and where a ray meets them. So far: horizontal planes that reach to the horizon.
+// All surfaces of a scene, explicit drops included, and where a ray meets them.
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "media/space/ray.h"
 #include "phase/settings/keys.h"
-#include "src/material/matte.h"
+#include "src/material/material.h"
+#include "src/shape/intersector.h"
+#include "src/shape/shape.h"
 
 namespace arcus::render {
-
-struct ShapeSettings {
-  std::string type = "plane";  ///< plane
-  double height_m = 0;         ///< of a horizontal plane
-};
-void list_keys(Keys& keys, ShapeSettings& shape);
 
 struct SurfaceSettings {
   std::string name;
@@ -27,26 +24,57 @@ void list_keys(Keys& keys, SurfaceSettings& surface);
 /// Where a ray met a surface.
 struct Hit {
   double distance_m;
-  Vec3 position_m;  ///< exactly on the surface, so that a ray that starts here does not meet it again
-  Vec3 normal;  ///< unit, on the side the ray came from
-  const Matte* material;
+  Vec3 position_m;       ///< on the surface to the last digits
+  Vec3 normal;           ///< unit, on the side the ray came from
+  const Material* material;
+  bool from_inside;      ///< the ray came through the body behind the surface
+  PieceId piece;
+
+  /// How a ray sets out from here, across the surface or back.
+  Departure departure(bool crosses) const { return {piece, crosses != from_inside}; }
 };
 
-/// All surfaces of a scene.
+/// A horizontal plane to the horizon.
+struct Plane {
+  double height_m;
+  std::uint32_t material;
+};
+
+/// What surfaces are made from.
+struct SurfaceParts {
+  std::vector<Material> materials;
+  std::vector<Plane> planes;
+  std::vector<PieceGroup> groups;
+
+  /// `folder`: where relative paths start. Throws bad_input.
+  void add(const SurfaceSettings& surface, const std::string& folder, const ColourToSpectrum& colour);
+  void add(PieceGroup group, const Material& material);
+};
+
 class Surfaces {
  public:
-  explicit Surfaces(const std::vector<SurfaceSettings>& settings);
-  /// The nearest hit within the ray's interval.
-  std::optional<Hit> nearest_hit(const media::Ray& ray) const;
-  /// Whether anything lies within the ray's interval.
-  bool is_blocked(const media::Ray& ray) const { return nearest_hit(ray).has_value(); }
+  Surfaces() = default;  ///< none
+  /// `is_exhaustive`: without a hierarchy, for measurement alone.
+  explicit Surfaces(SurfaceParts parts, bool is_exhaustive = false);
+
+  bool is_empty() const { return planes_.empty() && !has_pieces_; }
+  /// The nearest hit within the ray's stretch.
+  std::optional<Hit> nearest_hit(const media::Ray& ray, const Departure& departure = {}) const;
+  /// Whether anything lies within the ray's stretch.
+  bool is_blocked(const media::Ray& ray, const Departure& departure = {}) const;
+  /// Around all but the planes.
+  const media::Box& bounds_m() const { return bounds_m_; }
+  const std::vector<PieceGroup>& groups() const { return *groups_; }
+  const std::vector<Material>& materials() const { return *materials_; }
 
  private:
-  struct Plane {
-    double height_m;
-    Matte material;
-  };
+  // Behind pointers: the hierarchy and the hits point to them while the surfaces move.
+  std::unique_ptr<const std::vector<Material>> materials_ = std::make_unique<const std::vector<Material>>();
+  std::unique_ptr<const std::vector<PieceGroup>> groups_ = std::make_unique<const std::vector<PieceGroup>>();
   std::vector<Plane> planes_;
+  std::unique_ptr<const Intersector> intersector_;
+  media::Box bounds_m_;
+  bool has_pieces_ = false;
 };
 
 }  // namespace arcus::render

@@ -30,7 +30,7 @@ inline Scene slab_scene(const Slab& slab, double sky_radiance = 0, double sun_sc
   return Scene{.medium = std::make_unique<media::Medium>(std::move(components)),
                .sun = Sun(sun, sun_irradiance(sun, "")),
                .sky = Sky({.type = "constant", .radiance = sky_radiance}, Curve({550}, {1}, "")),
-               .surfaces = Surfaces({}),
+               .surfaces = Surfaces(),
                .camera = nullptr};
 }
 

@@ -37,7 +37,7 @@ Scene step_cloud(double sun_zenith_deg, double albedo) {
   return Scene{.medium = std::make_unique<media::Medium>(std::move(components)),
                .sun = Sun(sun, sun_irradiance(sun, "")),
                .sky = Sky({.type = "none"}, Curve({550}, {1}, "")),
-               .surfaces = Surfaces({}),
+               .surfaces = Surfaces(),
                .camera = nullptr};
 }
 

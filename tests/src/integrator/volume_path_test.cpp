@@ -8,6 +8,7 @@
 #include "tests/src/integrator/slab.h"
 #include "tests/statistics/seed.h"
 #include "tests/statistics/students_t.h"
+#include "tests/src/simple_surfaces.h"
 
 namespace arcus::render {
 namespace {
@@ -50,8 +51,9 @@ Moments traced_by_chance(const Scene& scene, const media::Ray& ray, int count) {
       }
       const auto hit = scene.surfaces.nearest_hit(path);
       if (!hit) break;
-      weight *= hit->material->albedo();
-      path = {hit->position_m, hit->material->draw(hit->normal, random.uniform_double(), random.uniform_double())};
+      weight *= hit->material->matte()->albedo_at(hit->position_m).at(550);
+      path = {hit->position_m, Matte::draw(hit->normal, random.uniform_double(), random.uniform_double())};
+      path.nearest_m = 1e-9;
     }
     moments.add(weight * scene.sun.radiance(path.direction, scene.sun.light(wavelengths)).mean());
   }
@@ -107,7 +109,7 @@ TEST(VolumePath, WideSunIsFoundEquallyByAskingAndByChance) {
     const Scene scene{.medium = std::make_unique<media::Medium>(components),
                       .sun = Sun(sun, sun_irradiance(sun, "")),
                       .sky = Sky({}, Curve({550}, {1}, "")),
-                      .surfaces = Surfaces({{"ground", {"plane", -20}, {"matte", 0.5}}}),
+                      .surfaces = matte_plane(-20, 0.5),
                       .camera = nullptr};
     const media::Ray ray{Vec3(0, 0, -15), normalize(Vec3(0.1, 0.2, 1))};
     const Moments asked = traced(scene, ray, 40000), chance = traced_by_chance(scene, ray, 300000);

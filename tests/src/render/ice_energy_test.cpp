@@ -99,7 +99,7 @@ Moments furnace(const std::vector<std::shared_ptr<const phase::Species>>& specie
   const Scene scene{.medium = std::make_unique<media::Medium>(std::move(components)),
                     .sun = Sun(off, sun_irradiance(off, "")),
                     .sky = Sky({.type = "constant", .radiance = 1}, Curve({550}, {1}, "")),
-                    .surfaces = Surfaces({}),
+                    .surfaces = Surfaces(),
                     .camera = nullptr};
   const VolumePath integrator(scene, 1'000'000);
   std::vector<double> means(static_cast<std::size_t>(batches));

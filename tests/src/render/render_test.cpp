@@ -9,6 +9,7 @@
 #include "phase/settings/toml_text.h"
 #include "src/render/picture.h"
 #include "tests/src/integrator/slab.h"
+#include "tests/src/simple_surfaces.h"
 
 namespace arcus::render {
 namespace {
@@ -34,7 +35,7 @@ Scene small_scene(const SceneSettings& settings) {
   return Scene{.medium = std::make_unique<media::Medium>(std::move(components)),
                .sun = Sun(settings.sun, irradiance),
                .sky = Sky({.type = "constant", .radiance = 0.1}, irradiance),
-               .surfaces = Surfaces({{"land", {"plane", 0}, {"matte", 0.4}}}),
+               .surfaces = matte_plane(0, 0.4),
                .camera = make_camera(settings.camera)};
 }
 

@@ -52,7 +52,7 @@ inline Image rendered(const Shower& shower, double turned_deg) {
   const Scene scene{.medium = std::make_unique<media::Medium>(std::move(components)),
                     .sun = Sun(shower.settings.sun, irradiance),
                     .sky = Sky({}, irradiance),
-                    .surfaces = Surfaces({}),
+                    .surfaces = Surfaces(),
                     .camera = make_camera(shower.settings.camera)};
   return render_picture(shower.settings, scene, {}, {}).image;
 }

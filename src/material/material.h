@@ -1,0 +1,73 @@
+#pragma once
+// What a surface does with light. A closed set of kinds: matte, mirror, simple transparency, dielectric.
+
+#include <functional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "phase/optics/refractive_index.h"
+#include "phase/settings/keys.h"
+#include "src/material/clear_body.h"
+#include "src/material/matte.h"
+#include "src/material/smooth_turns.h"
+
+namespace arcus::render {
+
+struct MaterialSettings {
+  std::string type = "matte";           ///< matte | mirror | transparent | dielectric
+  std::vector<double> albedo{0.2};      ///< one number or linear R, G, B: matte and mirror
+  std::string pattern = "plain";        ///< plain | checker (matte)
+  std::vector<double> other_albedo{0.05};
+  double pattern_m = 1;                 ///< edge of the squares
+  std::string index = "water";          ///< water | ice | a file | empty: index_constant (transparent, dielectric)
+  phase::ConstantIndexSettings index_constant;
+  double reflectance = 0.1, transmittance = 0.9;  ///< transparent: shares at every meeting
+  std::vector<double> filter{1};        ///< left of the light after filter_m inside; one number or linear R, G, B
+  double filter_m = 1;
+};
+void list_keys(Keys& keys, MaterialSettings& material);
+/// The keys of a transparent body's inside alone.
+void list_body_keys(Keys& keys, MaterialSettings& material);
+
+struct Mirror {
+  SmoothSpectrum reflectance;
+};
+struct Transparent {
+  ClearBody body;
+  double reflectance, transmittance;
+};
+struct Dielectric {
+  ClearBody body;
+};
+
+class Material {
+ public:
+  using Kinds = std::variant<Matte, Mirror, Transparent, Dielectric>;
+  explicit Material(Kinds kind) : kind_(std::move(kind)) {}
+
+  /// The matte surface, where it is one.
+  const Matte* matte() const { return std::get_if<Matte>(&kind_); }
+  /// The transparent body behind the surface, where there is one.
+  const ClearBody* body() const {
+    if (const auto* dielectric = std::get_if<Dielectric>(&kind_)) return &dielectric->body;
+    if (const auto* transparent = std::get_if<Transparent>(&kind_)) return &transparent->body;
+    return nullptr;
+  }
+  /// Whether wavelengths part here.
+  bool is_dispersive() const { return body() && body()->is_dispersive(); }
+  /// The ways on from a smooth surface, as the first wavelength goes. The normal is on the side that light comes from, which is within
+  /// the body where `from_inside`. Not for matte surfaces.
+  Turns turns(const Vec3& incoming, const Vec3& normal, bool from_inside, const Wavelengths& wavelengths, const PolarisedRay& light) const;
+
+ private:
+  Kinds kind_;
+};
+
+/// A spectrum between 0 and 1 for one number or linear R, G, B.
+using ColourToSpectrum = std::function<SmoothSpectrum(const std::vector<double>& colour)>;
+
+/// `folder`: where a file's relative path starts. Throws bad_input.
+Material make_material(const MaterialSettings& settings, const std::string& folder, const ColourToSpectrum& colour);
+
+}  // namespace arcus::render

@@ -1,0 +1,47 @@
+#pragma once
+// Explicit drops: spheres one by one, for comparison with a medium.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "media/space/box.h"
+#include "phase/population/sizes.h"
+#include "phase/settings/keys.h"
+#include "src/material/material.h"
+#include "src/shape/pieces.h"
+
+namespace arcus::render {
+
+/// How the radii of drops are distributed.
+struct DropRadiiSettings {
+  phase::SizesSettings shape{.type = "monodisperse"};
+  double effective = 500;  ///< effective radius [µm]
+};
+void list_keys(Keys& keys, DropRadiiSettings& radii);
+
+struct DropletsSettings {
+  std::string name;
+  long long count = 0;           ///< 0: as many as the medium holds (with `medium`)
+  std::string medium;            ///< drawn from the medium of that name; empty: evenly within the box
+  DropRadiiSettings radius_um;   ///< of drops in a box; those of a medium have their own
+  Vec3 low_m{-5, 20, 0}, high_m{5, 40, 10};  ///< the box
+  double scale = 1;              ///< multiplies the radii; of a medium's drops it divides their number by its square, too
+  MaterialSettings material{.type = "dielectric"};
+  long long seed = 1;
+};
+void list_keys(Keys& keys, DropletsSettings& droplets);
+
+/// Drops may not overlap: where one does with another of a smaller number, it is drawn anew.
+struct DropDraw {
+  Vec3 centre_m;
+  double radius_m;
+};
+/// Draws `count` drops. `draw(i, attempt)` gives drop number i, another one at every attempt; it may be called from many threads. Throws
+/// bad_input, naming `where`, if after a hundred attempts some still overlap: they fill too much of the space; cannot() without memory.
+PieceGroup place_drops(std::size_t count, const std::function<DropDraw(std::size_t drop, unsigned attempt)>& draw, const std::string& where);
+
+/// Evenly within the box; centres lie so that the whole drop does.
+PieceGroup drops_in_box(const DropletsSettings& settings, const std::string& where);
+
+}  // namespace arcus::render
