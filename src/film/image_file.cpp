@@ -12,8 +12,8 @@ namespace arcus::render {
 namespace {
 
 const ImageCodec& load() {
-  // Found by the program's own run path, beside it. It is never unloaded: libraries below it keep threads.
-  void* const module = dlopen(ARCUS_IMAGE_CODEC, RTLD_NOW | RTLD_LOCAL);
+  // Found by the run path of the program. Lazily bound: most of what is loaded is never called. Never unloaded: libraries below it keep threads.
+  void* const module = dlopen(ARCUS_IMAGE_CODEC, RTLD_LAZY | RTLD_LOCAL);
   const void* const codec = module ? dlsym(module, "arcus_image_codec") : nullptr;
   if (!codec) throw cannot("cannot read or write pictures", dlerror());
   return *static_cast<const ImageCodec*>(codec);
