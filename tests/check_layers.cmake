@@ -75,14 +75,14 @@ package("^nlohmann/" "^(phase/settings|src/film|src/analysis|src/render|tools)/.
   "JSON in sources of phase/settings, src/film, src/render, src/analysis and tools")
 package("^openvdb/" "^media/grid/.*[.]cpp$" "OpenVDB stays in sources of media/grid")
 package("^nanovdb/" "^tests/benchmarks/" "NanoVDB is there to be compared with")
-package("^OpenImageIO/" "^src/film/image_file[.]cpp$" "OpenImageIO stays in src/film/image_file.cpp")
+package("^OpenImageIO/" "^src/film/image_codec[.]cpp$" "OpenImageIO stays in src/film/image_codec.cpp")
 package("^embree" "^src/shape/intersector[.]cpp$" "Embree stays in src/shape/intersector.cpp")
 package("^assimp/" "^src/shape/mesh_file[.]cpp$" "assimp stays in src/shape/mesh_file.cpp")
 package("^cairo" "^src/analysis/canvas[.]cpp$" "Cairo stays in src/analysis/canvas.cpp")
 package("^CLI/" "^tools/" "the option parser stays in tools")
 
 set(language "^[a-z_0-9]+$")
-set(system "^(sys/[a-z_]+|math|unistd|fcntl|signal|dirent|errno|time|pthread|sched|poll|spawn|immintrin|cpuid)[.]h$")
+set(system "^(sys/[a-z_]+|math|unistd|fcntl|signal|dirent|errno|time|pthread|sched|poll|spawn|immintrin|cpuid|dlfcn)[.]h$")
 
 # ---- reading ----------------------------------------------------------------------------------------
 

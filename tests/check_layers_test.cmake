@@ -65,7 +65,7 @@ rejects(media/medium/a.cpp "#include <openvdb/openvdb.h>" "OpenVDB stays in sour
 rejects(media/medium/a.h "#include <nanovdb/NanoVDB.h>" "NanoVDB is there to be compared with")
 rejects(src/render/a.h "#include <tbb/parallel_for.h>" "TBB in sources")
 accepts(src/render/a.cpp "#  include <tbb/parallel_for.h>")
-rejects(src/film/film.cpp "#include <OpenImageIO/imageio.h>" "OpenImageIO stays in src/film/image_file.cpp")
+rejects(src/film/film.cpp "#include <OpenImageIO/imageio.h>" "OpenImageIO stays in src/film/image_codec.cpp")
 rejects(phase/species/a.cpp "#include <netcdf.h>" "NetCDF stays in phase/base/netcdf_file.cpp")
 rejects(phase/settings/keys.cpp "#include <toml++/toml.h>" "the TOML parser stays in")
 rejects(src/render/a.cpp "#include <CLI/CLI.hpp>" "the option parser stays in tools")

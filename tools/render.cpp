@@ -67,6 +67,7 @@ void run(const RenderCommand& command) {
   build.log = say;
   const render::Scene scene = render::build_scene(settings, build);
 
+  render::load_image_files();  // likewise before the work
   watch_for_interruption();
   render::RunOptions options;
   options.threads = command.threads;

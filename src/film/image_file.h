@@ -9,6 +9,10 @@
 
 namespace arcus::render {
 
+/// Loads what reads and writes pictures, which otherwise happens with the first one. Throws cannot() where it is missing, so that
+/// a long computation fails before it begins.
+void load_image_files();
+
 /// Writes a picture as EXR: one part, all channels as 32-bit float without loss (ZIP), metadata as
 /// attributes, the box as data window in the picture's display window. Whole or not at all. Equal
 /// pictures give equal bytes. Throws cannot() where the file cannot be written.

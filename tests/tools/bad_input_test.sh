@@ -147,6 +147,15 @@ expect 2 'cut.exr' "$ARCUS" profile cut.exr
 expect 2 'cut.exr' "$ARCUS" compare good.exr cut.exr
 expect 2 'around' "$ARCUS" profile good.exr --around moon
 
+# What reads and writes pictures takes longer to load than all of the rest, so nothing else waits for it; without it, a render ends before
+# it begins.
+checks=$((checks + 1))
+if LD_TRACE_LOADED_OBJECTS=1 "$ARCUS" | grep -q OpenImageIO; then complain 'OpenImageIO is loaded at every start'; fi
+mkdir alone && cp "$ARCUS" alone/arcus
+expect 1 'cannot read or write pictures: arcus_image_codec' alone/arcus render a.toml -o alone/a.exr --spp 1
+expect 1 'cannot read or write pictures: arcus_image_codec' alone/arcus profile good.exr
+absent alone/a.exr
+
 # Recipes of crystals: values that make none, and shapes at the ends of what does.
 crystal() {  # crystal LINE...: a small recipe of prisms that lie at random, with lines added
   { printf 'type = "crystal"\nhabit = "prism"\nwavelength_nm = 550\nrays_million = 0.02\n'

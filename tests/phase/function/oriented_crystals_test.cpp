@@ -118,7 +118,12 @@ TEST(OrientedCrystals, ASpeciesTellsExtinctionByDirectionAndItsBound) {
 }
 
 TEST(OrientedCrystals, ADrawLeavesTheOtherWavelengthsWithoutWeight) {
-  const PhaseFunction function{OrientedLobe{&crystals(), 0}};
+  // Draws trace crystals; of the table they need next to nothing.
+  CrystalTableSettings settings = plates();
+  settings.rays = 1e4;
+  settings.map_step_deg = 5;
+  const OrientedCrystals coarse(settings, tabulate_oriented_crystals(settings, sun_elevation_deg, sun_radius_deg));
+  const PhaseFunction function{OrientedLobe{&coarse, 0}};
   Random random(1, 2, 3);
   const Draw draw = function.draw(direction_of(10, 5), all_at(550), random);
   EXPECT_EQ(draw.density_per_sr[0], 1);
