@@ -5,7 +5,6 @@ import sys
 import numpy as np
 
 NAMES = {"arcus": "Arcus", "independent": "pbrt-v4, independent", "zsobol": "pbrt-v4, zsobol"}
-LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
 
 def read_exr(path):
@@ -27,30 +26,33 @@ def read_exr(path):
     return lines.reshape(height, 3, width).transpose(0, 2, 1)[:, :, ::-1].astype(float)  # their order is B, G, R
 
 
-def channels(picture):
-    return {"luminance": picture @ LUMINANCE, "green": picture[:, :, 1]}
+def luminance(picture):
+    return picture @ np.array([0.2126, 0.7152, 0.0722])
 
 
-def relative_error(a, b, mean):
-    """Of one of two noisy pictures: half of their squared difference, relative as `arcus compare` has it."""
-    return np.mean(0.5 * (a - b) ** 2 / (mean**2 + np.mean(mean) ** 2 / 1000))
+def errors(a, b, mean):
+    """Of one of two noisy pictures, half of their squared difference: relative as `arcus compare` has it; the same in pixels
+    brighter than a tenth of the picture's mean; the mean square over the mean's square, which bright pixels decide."""
+    square, level = 0.5 * (a - b) ** 2, np.mean(mean)
+    relative = square / (mean**2 + level**2 / 1000)
+    return np.mean(relative), np.mean(relative[mean > 0.1 * level]), np.mean(square) / level**2
 
 
 def main(samples):
-    means = {name: read_exr(name + ".mean.exr") for name in NAMES}
-    scale = {name: np.mean(means[name] @ LUMINANCE) / np.mean(means["arcus"] @ LUMINANCE) for name in NAMES}
-    print("| luminance of 32 x 32 pixels over the mean, by rows | from - to |\n| --- | --- |")
+    means = {name: luminance(read_exr(name + ".mean.exr")) for name in NAMES}
+    print("| program | mean luminance over Arcus's | the same in blocks of 32 x 32 pixels, over the picture's, by rows |\n" + "| --- " * 3 + "|")
     for name, mean in means.items():
-        blocks = (mean @ LUMINANCE / scale[name]).reshape(4, 32, 6, 32).mean(axis=(1, 3)) / np.mean(means["arcus"] @ LUMINANCE)
-        print("| %s | %s |" % (NAMES[name], "; ".join(" ".join("%.3f" % block for block in row) for row in blocks)))
-    print("\n| program | a sample | relMSE of luminance | of green | relMSE x processor seconds: luminance | green |\n" + "| --- " * 6 + "|")
+        blocks = mean.reshape(4, 32, 6, 32).mean(axis=(1, 3)) / np.mean(mean)
+        rows = "; ".join(" ".join("%.2f" % block for block in row) for row in blocks)
+        print("| %s | %.4f | %s |" % (NAMES[name], np.mean(mean) / np.mean(means["arcus"]), rows))
+    print("\n| program | a sample | relMSE: all pixels | brighter ones | MSE over mean^2 | each x processor seconds |\n" + "| --- " * 6 + "|")
     for name in NAMES:
-        first, second = read_exr(name + "1.exr"), read_exr(name + "2.exr")
+        first, second = (luminance(read_exr(name + seed + ".exr")) for seed in "12")
         start = np.loadtxt(name + ".seconds")
         seconds = np.mean(start[:, 0] - start[:, 1]) * samples / (samples - 1)
-        errors = [relative_error(channels(first)[c], channels(second)[c], channels(means[name])[c]) for c in ("luminance", "green")]
-        time = seconds / (first.shape[0] * first.shape[1] * samples)
-        print("| %s | %.1f us | %.4g | %.4g | %.2f | %.2f |" % (NAMES[name], time * 1e6, *errors, *(e * seconds for e in errors)))
+        found = errors(first, second, means[name])
+        products = "; ".join("%.3g" % (error * seconds) for error in found)
+        print("| %s | %.1f us | %.3g | %.3g | %.3g | %s |" % (NAMES[name], seconds * 1e6 / first.size / samples, *found, products))
 
 
 if __name__ == "__main__":

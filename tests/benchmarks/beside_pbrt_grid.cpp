@@ -1,4 +1,5 @@
-// A grid of a VDB file as NanoVDB, for beside_pbrt.sh: beside_pbrt_grid IN.vdb GRID OUT.nvdb writes it under the name "density".
+// A grid of a VDB file as NanoVDB, for beside_pbrt.sh: beside_pbrt_grid IN.vdb GRID OUT.nvdb
+// writes it under the name "density".
 
 #include <nanovdb/util/IO.h>
 #include <nanovdb/util/OpenToNanoVDB.h>
