@@ -91,8 +91,8 @@ bool passes_wedge(double n, double sun_deg, double clock_deg) {
     const auto normal = [&](double deg) { return side * std::cos(radians(deg)) + up * std::sin(radians(deg)); };
     const Vec3 in = normal(roll), out = normal(roll + 120);
     if (dot(beam, in) >= 0) continue;
-    const auto inside = refracted(beam, in, 1 / n);
-    if (dot(*inside, out) > 0 && refracted(*inside, -out, n)) return true;
+    const auto inside = refracted_or_none(beam, in, 1 / n);
+    if (dot(*inside, out) > 0 && refracted_or_none(*inside, -out, n)) return true;
   }
   return false;
 }

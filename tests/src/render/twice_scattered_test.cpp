@@ -35,7 +35,7 @@ Scene layer(const SunSettings& sun, const phase::Recipe& recipe) {
   return Scene{.medium = std::make_unique<media::Medium>(std::move(components)),
                .sun = Sun(sun, sun_irradiance(sun, "")),
                .sky = Sky({}, Curve({550}, {1}, "")),
-               .surfaces = Surfaces({}),
+               .surfaces = Surfaces(),
                .camera = nullptr};
 }
 

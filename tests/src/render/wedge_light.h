@@ -36,7 +36,7 @@ inline Vec3 face_normal(int face) {
 
 /// Light of direction `d` (unit) that meets a surface with this outer normal from outside (n: of inside over outside) or, turned round,
 /// from inside; nothing where it is reflected totally.
-inline std::optional<Vec3> refracted(const Vec3& d, const Vec3& against, double ratio) {
+inline std::optional<Vec3> refracted_or_none(const Vec3& d, const Vec3& against, double ratio) {
   const double cosine = -dot(d, against), s = 1 - ratio * ratio * (1 - cosine * cosine);
   if (s < 0) return std::nullopt;
   return d * ratio + against * (ratio * cosine - std::sqrt(s));
@@ -69,9 +69,9 @@ inline std::vector<double> wedge_light(const Strip& strip, double nm, int face_i
       const Vec3 incoming = lies.to_crystal(beam);
       const double meets = -dot(incoming, in);
       if (meets <= 0) continue;
-      const Vec3 inside = *refracted(incoming, in, 1 / n);
+      const Vec3 inside = *refracted_or_none(incoming, in, 1 / n);
       if (dot(inside, out) <= 0) continue;
-      const auto leaves = refracted(inside, -out, n);
+      const auto leaves = refracted_or_none(inside, -out, n);
       if (!leaves) continue;
       const double weight = meets * passing(meets, -dot(inside, in), n) * passing(dot(*leaves, out), dot(inside, out), n) *
                             disc.relative_radiance(std::sqrt(s), nm);
