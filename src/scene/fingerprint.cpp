@@ -15,6 +15,13 @@ std::string recipe_fingerprint(const MediumSettings& medium, const std::string& 
   return phase::recipe_id(recipe);
 }
 
+/// Of the file with a body's index, where there is one.
+std::string index_fingerprint(const MaterialSettings& material, const std::string& folder) {
+  const bool is_clear = material.type == "transparent" || material.type == "dielectric";
+  if (!is_clear || material.index.empty() || material.index == "water" || material.index == "ice") return "";
+  return file_hash(path_from(folder, material.index));
+}
+
 }  // namespace
 
 std::string scene_fingerprint(const SceneSettings& settings) {
@@ -25,6 +32,11 @@ std::string scene_fingerprint(const SceneSettings& settings) {
     all += file_hash(path_from(settings.folder, medium.vdb));
     all += recipe_fingerprint(medium, settings.folder);
   }
+  for (const SurfaceSettings& surface : settings.surfaces) {
+    if (surface.shape.type == "mesh") all += file_hash(path_from(settings.folder, surface.shape.file));
+    all += index_fingerprint(surface.material, settings.folder);
+  }
+  for (const DropletsSettings& drops : settings.droplets) all += index_fingerprint(drops.material, settings.folder);
   return content_hash(all);
 }
 

@@ -17,8 +17,8 @@ namespace {
 
 constexpr unsigned most_attempts = 100;
 
-/// Bytes that a drop takes, its share of the hierarchy and the latter's building included: measured with 10⁶ and 10⁷ (docs/explicit_drops.md).
-constexpr double bytes_per_drop = 300;
+/// Bytes that a drop takes, its share of the hierarchy and the latter's building included: 112 of 10⁷ measured (docs/explicit_drops.md).
+constexpr double bytes_per_drop = 130;
 
 void check_memory(std::size_t count, const std::string& where) {
   const double have = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
@@ -105,17 +105,10 @@ void list_keys(Keys& keys, DropRadiiSettings& radii) {
 
 void list_keys(Keys& keys, DropletsSettings& droplets) {
   keys.text("name", droplets.name, "for messages");
-  keys.integer("count", droplets.count, between(0, 4e9), "how many drops; 0, with `medium`: as many as it holds");
-  keys.text("medium", droplets.medium,
-            "drawn from the grids of the medium of that name, which is then not rendered itself; with `count`, radii are scaled so that the "
-            "extinction stays");
-  if (keys.only_if(droplets.medium.empty(), "without medium")) {
-    keys.table("radius_um", droplets.radius_um, "radii of the drops");
-    keys.box("box_m", droplets.low_m, droplets.high_m, "where the drops lie, evenly spread");
-    if (droplets.count == 0 && !keys.documents()) keys.refuse("count", "0", "must be at least 1 without a medium");
-  }
-  keys.number("scale", droplets.scale, above(0),
-              "multiplies the radii, so that a render can resolve them; of a medium's drops it divides their number by its square, too");
+  keys.integer("count", droplets.count, between(1, 4e9), "how many drops");
+  keys.table("radius_um", droplets.radius_um, "radii of the drops");
+  keys.box("box_m", droplets.low_m, droplets.high_m, "where the drops lie, evenly spread, none within another");
+  keys.number("scale", droplets.scale, above(0), "multiplies the radii, so that a render can resolve the drops");
   list_body_keys(keys, droplets.material);
   keys.integer("seed", droplets.seed, between(0, 9e15), "another seed, other places");
 }

@@ -15,19 +15,20 @@ namespace arcus::render {
 
 /// How the radii of drops are distributed.
 struct DropRadiiSettings {
-  phase::SizesSettings shape{.type = "monodisperse"};
+  DropRadiiSettings() { shape.type = "monodisperse"; }
+  phase::SizesSettings shape;
   double effective = 500;  ///< effective radius [µm]
 };
 void list_keys(Keys& keys, DropRadiiSettings& radii);
 
 struct DropletsSettings {
+  DropletsSettings() { material.type = "dielectric"; }
   std::string name;
-  long long count = 0;           ///< 0: as many as the medium holds (with `medium`)
-  std::string medium;            ///< drawn from the medium of that name; empty: evenly within the box
-  DropRadiiSettings radius_um;   ///< of drops in a box; those of a medium have their own
+  long long count = 1000;
+  DropRadiiSettings radius_um;
   Vec3 low_m{-5, 20, 0}, high_m{5, 40, 10};  ///< the box
-  double scale = 1;              ///< multiplies the radii; of a medium's drops it divides their number by its square, too
-  MaterialSettings material{.type = "dielectric"};
+  double scale = 1;              ///< multiplies the radii
+  MaterialSettings material;     ///< a body's keys alone
   long long seed = 1;
 };
 void list_keys(Keys& keys, DropletsSettings& droplets);

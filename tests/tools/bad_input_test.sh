@@ -52,6 +52,40 @@ expect 2 "clouds" "$ARCUS" render a.toml
 scene a.toml 'interpolation = "cubic"'
 expect 2 'interpolation.*linear or nearest' "$ARCUS" render a.toml
 
+# Surfaces and drops.
+surface() { printf '[camera]\nresolution = [8, 8]\n[[surface]]\nshape = { %s }\nmaterial = { %s }\n' "$1" "$2" >s.toml; }
+surface 'type = "cube"' 'albedo = 0.5'
+expect 2 "s.toml:4.*shape.type: text 'cube'.*plane, sphere" "$ARCUS" render s.toml
+surface 'type = "sphere", radius_m = -1' 'albedo = 0.5'
+expect 2 's.toml:4.*radius_m: -1.*above 0' "$ARCUS" render s.toml
+surface 'type = "rectangle", edge_v_m = [4, 0, 0]' 'albedo = 0.5'
+expect 2 's.toml:4.*edge_v_m' "$ARCUS" render s.toml
+surface 'type = "sphere"' 'albedo = [0.5, 0.2]'
+expect 2 's.toml:5.*albedo: 2 numbers.*1 or 3' "$ARCUS" render s.toml
+surface 'type = "sphere"' 'type = "transparent", reflectance = 0.5'
+expect 2 's.toml:5.*transmittance: 0.9.*at most 1 - reflectance = 0.5' "$ARCUS" render s.toml
+surface 'type = "sphere"' 'type = "dielectric", index = "none.txt"'
+expect 2 'none.txt' "$ARCUS" render s.toml
+surface 'type = "mesh", file = "none.obj"' 'albedo = 0.5'
+expect 2 'none.obj: no file' "$ARCUS" render s.toml
+printf 'ply\nformat ascii 1.0\nelement vertex 4\n' >cut.ply
+surface 'type = "mesh", file = "cut.ply"' 'albedo = 0.5'
+expect 2 'cut.ply: a header without end_header' "$ARCUS" render s.toml
+drops() { printf '[render]\nintegrator = "path"\n[camera]\nresolution = [8, 8]\n[[droplets]]\n%s\n' "$1" >d.toml; }
+drops 'box_m = [[0, 0, 0], [1, 1]]'
+expect 2 'd.toml:6.*box_m.*two corners' "$ARCUS" render d.toml
+drops 'count = 0'
+expect 2 'd.toml:6.*count: 0' "$ARCUS" render d.toml
+drops 'radius_um = { effective = 20000000 }'
+expect 2 'droplets\[0\]: box_m.*must fit into the box' "$ARCUS" render d.toml
+drops "$(printf 'count = 5000\nradius_um = { effective = 900000 }')"
+expect 2 'droplets\[0\]: [0-9]+ of 5000 drops without room.*larger box' "$ARCUS" render d.toml
+drops 'count = 4000000000'
+expect 1 'droplets\[0\]: 4e+09 drops need about .* enough for' "$ARCUS" render d.toml
+scene d.toml '[render]' 'integrator = "path"'
+expect 2 "render.integrator: 'path' and a medium.*'volume_path' expected" "$ARCUS" render d.toml -o d.exr
+absent d.exr
+
 # Recipes.
 printf 'type = "mie"\nsize_um = -3\n' >r.toml
 expect 2 'r.toml:2.*size_um: -3' "$ARCUS" phase compute r.toml
