@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 
 #include <cassert>
+#include <string>
 
 #include "phase/base/error.h"
 #include "phase/base/whole_file.h"
@@ -15,7 +16,12 @@ const ImageCodec& load() {
   // Found by the run path of the program. Lazily bound: most of what is loaded is never called. Never unloaded: libraries below it keep threads.
   void* const module = dlopen(ARCUS_IMAGE_CODEC, RTLD_LAZY | RTLD_LOCAL);
   const void* const codec = module ? dlsym(module, "arcus_image_codec") : nullptr;
-  if (!codec) throw cannot("cannot read or write pictures", dlerror());
+  if (!codec) {
+    const std::string why = dlerror();
+    // What the loader says where there is no room for a library.
+    const bool is_full = why.find("failed to map segment") != std::string::npos || why.find("annot allocate memory") != std::string::npos;
+    throw cannot("cannot read or write pictures", why + (is_full ? "; there is not enough memory for it" : ""));
+  }
   return *static_cast<const ImageCodec*>(codec);
 }
 
