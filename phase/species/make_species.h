@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "phase/species/recipe.h"
 #include "phase/species/species.h"
@@ -17,6 +18,8 @@ struct SpeciesOptions {
   double sun_angular_radius_rad = 0;
   /// How high the sun stands [deg]: oriented crystals get a map of the sky for it, and without it none.
   std::optional<double> sun_elevation_deg;
+  /// Cross-sections by size node that extinction coefficients refer to, where those are not the recipe's own; see Species. Spheres alone.
+  std::vector<double> counted_m2;
   /// Where computed tables are kept; empty: nowhere. default_cache_folder() is where users expect them.
   std::string cache_folder;
   /// Gets warnings, and what takes long; may be empty.

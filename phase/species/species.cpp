@@ -15,7 +15,19 @@ constexpr double reference_nm = 550;      // where extinction coefficients are g
 constexpr double wavelength_step_nm = 1;  // of cross-sections, which are linear between a table's nodes
 constexpr int guide_cells = 256;
 
+Curve row_of(const ScatteringTable& table, const std::vector<double>& values, std::size_t size) {
+  const auto row = values.begin() + static_cast<std::ptrdiff_t>(table.row(size, 0));
+  return Curve(table.wavelength_nm, {row, row + static_cast<std::ptrdiff_t>(table.wavelength_nm.size())}, "wavelength_nm");
+}
+
 }  // namespace
+
+std::vector<double> cross_sections_at_550_nm_m2(const ScatteringTable& table) {
+  std::vector<double> result;
+  for (std::size_t size = 0; size < table.size_um.size(); ++size)
+    result.push_back(row_of(table, table.extinction_cross_section_m2, size)(reference_nm));
+  return result;
+}
 
 void Species::make_wavelength_grid(double first_nm, double last_nm) {
   wavelength_count_ = std::max(2, static_cast<int>(std::ceil((last_nm - first_nm) / wavelength_step_nm)) + 1);
@@ -67,24 +79,21 @@ Species::Species(std::unique_ptr<const OrientedCrystals> crystals) : oriented_(s
     largest_extinction_ratio_ = std::max(largest_extinction_ratio_, *std::max_element(ratios.begin(), ratios.end()));
 }
 
-Species::Species(ScatteringTable table, const SphereTableOptions& options)
+Species::Species(ScatteringTable table, const SphereTableOptions& options, const std::vector<double>& counted_m2)
     : table_(std::move(table)), lobes_(std::make_unique<const SphereTable>(table_, options)) {
   set_sizes(table_.size_um);
   make_wavelength_grid(table_.wavelength_nm.front(), table_.wavelength_nm.back());
-  const std::size_t count = table_.wavelength_nm.size();
-  const auto curve = [&](const std::vector<double>& values, std::size_t size) {
-    const auto row = values.begin() + static_cast<std::ptrdiff_t>(size * count);
-    return Curve(table_.wavelength_nm, {row, row + static_cast<std::ptrdiff_t>(count)}, "wavelength_nm");
-  };
+  const std::vector<double> reference_m2 = counted_m2.empty() ? cross_sections_at_550_nm_m2(table_) : counted_m2;
+  assert(reference_m2.size() == size_um_.size());
   for (std::size_t size = 0; size < size_um_.size(); ++size) {
-    const Curve extinction = curve(table_.extinction_cross_section_m2, size);
-    const Curve scattering = curve(table_.scattering_cross_section_m2, size);
-    const Curve fraction = curve(table_.forward_fraction, size);
+    const Curve extinction = row_of(table_, table_.extinction_cross_section_m2, size);
+    const Curve scattering = row_of(table_, table_.scattering_cross_section_m2, size);
+    const Curve fraction = row_of(table_, table_.forward_fraction, size);
     for (int i = 0; i < wavelength_count_; ++i) {
       const double nm = first_wavelength_nm_ + (wavelengths_per_nm_ > 0 ? i / wavelengths_per_nm_ : 0);
       // What is in no p11 cannot be kept.
       const double f = options.clip_forward_lobe || table_.forward_angle_deg == 0 ? fraction(nm) : 0;
-      extinction_ratio_.push_back(static_cast<float>((1 - f) * extinction(nm) / extinction(reference_nm)));
+      extinction_ratio_.push_back(static_cast<float>((1 - f) * extinction(nm) / reference_m2[size]));
       const double albedo = (scattering(nm) / extinction(nm) - f) / (1 - f);
       albedo_.push_back(static_cast<float>(std::clamp(albedo, 0.0, 1.0)));
     }

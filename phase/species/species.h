@@ -18,6 +18,10 @@
 
 namespace arcus::phase {
 
+/// Mean extinction cross-section of a particle at 550 nm, diffraction included, by size node [m²]: an extinction coefficient over it is
+/// a number of particles a volume.
+std::vector<double> cross_sections_at_550_nm_m2(const ScatteringTable& table);
+
 /// Sizes between two nodes are a mixture of both, with weights linear in ln size; sizes outside of the nodes are
 /// those at the end. Wavelengths outside of the table's are taken at its ends. Calls are free of side effects.
 class Species {
@@ -25,8 +29,9 @@ class Species {
   /// Particles that scatter by a function in closed form, albedo 1, with one size. `exponent`: extinction goes with
   /// the wavelength to that power (0: grey; −4: small particles).
   Species(const PhaseFunction& function, double exponent);
-  /// Particles with a table. What a renderer reads is made here: seconds, and tens of megabytes.
-  Species(ScatteringTable table, const SphereTableOptions& options);
+  /// Particles with a table. What a renderer reads is made here: seconds, and tens of megabytes. `counted_m2`: cross-sections by size
+  /// node to which extinction coefficients at 550 nm refer, where those are not the table's own: of the same particles by other optics.
+  Species(ScatteringTable table, const SphereTableOptions& options, const std::vector<double>& counted_m2 = {});
   /// Crystals that lie in a preferred way.
   explicit Species(std::unique_ptr<const OrientedCrystals> crystals);
   Species(const Species&) = delete;

@@ -7,7 +7,7 @@
 
 namespace arcus::render {
 
-ClearBody::ClearBody(const phase::RefractiveIndex& index, const SmoothSpectrum& filter, double filter_m) {
+ClearBody::ClearBody(const phase::RefractiveIndex& index, const SmoothSpectrum& filter, double filter_m, double enlargement) {
   for (int i = 0; i < nodes; ++i) {
     const double nm = shortest_wavelength_nm + i;
     const auto m = index.relative_to_air(nm);
@@ -16,6 +16,7 @@ ClearBody::ClearBody(const phase::RefractiveIndex& index, const SmoothSpectrum& 
     // The imaginary part is relative to the air too, in which the wavelength is shorter by the air's index.
     absorption_per_m_[node] = 4 * pi * m.imag() * phase::air_index(nm) / (nm * 1e-9);
     absorption_per_m_[node] -= std::log(std::max(filter.at(nm), 1e-300)) / filter_m;
+    absorption_per_m_[node] /= enlargement;
     is_dispersive_ |= index_[node] != index_[0];
     absorbs_ |= absorption_per_m_[node] > 0;
   }

@@ -13,8 +13,8 @@ namespace arcus::render {
 class ClearBody {
  public:
   /// Refractive index relative to the air, with absorption; besides, the colour of a filter: `filter` is what is left of the light
-  /// after `filter_m` metres. Throws bad_input where the index is not known from 380 to 780 nm.
-  ClearBody(const phase::RefractiveIndex& index, const SmoothSpectrum& filter, double filter_m);
+  /// after `filter_m` metres. `enlargement`: the body stands for one that many times smaller, and takes no more light than that. Throws bad_input where the index is not known from 380 to 780 nm.
+  ClearBody(const phase::RefractiveIndex& index, const SmoothSpectrum& filter, double filter_m, double enlargement = 1);
 
   /// True where the index depends on wavelength.
   bool is_dispersive() const { return is_dispersive_; }

@@ -13,9 +13,12 @@ void list_colour(Keys& keys, std::string_view name, std::vector<double>& colour,
 
 }  // namespace
 
-void list_body_keys(Keys& keys, MaterialSettings& material) {
+void list_index_key(Keys& keys, MaterialSettings& material) {
   keys.word_or_table("index", material.index, material.index_constant,
                      "refractive index: water, ice, a file of wavelength in nm, n and k, or { n, k } relative to the surroundings");
+}
+
+void list_filter_keys(Keys& keys, MaterialSettings& material) {
   list_colour(keys, "filter", material.filter, "what is left of the light after filter_m metres inside");
   keys.number("filter_m", material.filter_m, above(0), "the way that `filter` refers to [m]");
 }
@@ -42,7 +45,10 @@ void list_keys(Keys& keys, MaterialSettings& material) {
       keys.refuse("transmittance", number_text(material.transmittance),
                   "must be at most 1 - reflectance = " + number_text(1 - material.reflectance));
   }
-  if (keys.only_if(is_transparent || material.type == "dielectric", "transparent, dielectric")) list_body_keys(keys, material);
+  if (keys.only_if(is_transparent || material.type == "dielectric", "transparent, dielectric")) {
+    list_index_key(keys, material);
+    list_filter_keys(keys, material);
+  }
 }
 
 Turns Material::turns(const Vec3& incoming, const Vec3& normal, bool from_inside, const Wavelengths& wavelengths,
@@ -68,7 +74,7 @@ Material make_material(const MaterialSettings& settings, const std::string& fold
     const bool is_known = settings.index == "water" || settings.index == "ice";
     return phase::RefractiveIndex::named(is_known ? settings.index : path_from(folder, settings.index));
   }();
-  const ClearBody body(index, colour(settings.filter), settings.filter_m);
+  const ClearBody body(index, colour(settings.filter), settings.filter_m, settings.enlargement);
   if (settings.type == "transparent") return Material(Transparent{body, settings.reflectance, settings.transmittance});
   return Material(Dielectric{body});
 }

@@ -25,10 +25,12 @@ struct MaterialSettings {
   double reflectance = 0.1, transmittance = 0.9;  ///< transparent: shares at every meeting
   std::vector<double> filter{1};        ///< left of the light after filter_m inside; one number or linear R, G, B
   double filter_m = 1;
+  double enlargement = 1;               ///< of a body that stands for a smaller one; not a key
 };
 void list_keys(Keys& keys, MaterialSettings& material);
 /// The keys of a transparent body's inside alone.
-void list_body_keys(Keys& keys, MaterialSettings& material);
+void list_index_key(Keys& keys, MaterialSettings& material);
+void list_filter_keys(Keys& keys, MaterialSettings& material);
 
 struct Mirror {
   SmoothSpectrum reflectance;

@@ -1,5 +1,6 @@
 #include "src/scene/build_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -11,6 +12,7 @@
 #include "phase/settings/toml_text.h"
 #include "phase/species/make_species.h"
 #include "src/scene/colour_spectrum.h"
+#include "src/scene/droplets_from_medium.h"
 
 namespace arcus::render {
 namespace {
@@ -39,29 +41,33 @@ std::string name_of(const MediumSettings& settings, const SceneSettings& scene) 
   return scene.path + ": medium '" + (settings.name.empty() ? settings.vdb : settings.name) + "'";
 }
 
+/// How particles of a recipe are by geometric optics, and what an extinction by the recipe itself means for them.
+void make_geometric(phase::Recipe& recipe, phase::SpeciesOptions& options, const std::string& where) {
+  if (!recipe.is_sphere()) throw bad_input(where, "a phase function of type '" + recipe.type + "'", "drops expected: type mie or rain");
+  if (recipe.optics == "geometric") return;
+  options.counted_m2 = phase::cross_sections_at_550_nm_m2(phase::table_of(recipe, options));
+  recipe.optics = "geometric";
+}
+
 /// Species that were made once, by their recipe: several media of a scene may share one.
 using MadeSpecies = std::map<std::string, std::shared_ptr<const phase::Species>>;
 
-void add_medium(const MediumSettings& settings, const SceneSettings& scene, const BuildOptions& options, MadeSpecies& made,
-                std::vector<media::Component>& components) {
+/// One grid of a medium, and what it holds.
+struct Kind {
+  media::Component component;  ///< without species
+  phase::Recipe recipe;
+};
+
+std::vector<Kind> read_medium(const MediumSettings& settings, const SceneSettings& scene, const BuildOptions& options) {
   const std::string where = name_of(settings, scene);
-  const std::string path = path_from(scene.folder, settings.vdb);
-  media::StoredMedia stored = media::read_media(path, settings.grid);
+  media::StoredMedia stored = media::read_media(path_from(scene.folder, settings.vdb), settings.grid);
   for (const std::string& note : stored.notes)
     if (options.log) options.log(note);
-
-  phase::SpeciesOptions species_options;
-  species_options.sun_angular_radius_rad = radians(scene.sun.angular_radius_deg);
-  if (scene.sun.irradiance_scale > 0) species_options.sun_elevation_deg = scene.sun.elevation_deg;
-  species_options.cache_folder = options.cache_folder;
-  species_options.log = options.log;
+  std::vector<Kind> kinds;
   for (media::StoredMedium& one : stored.media) {
-    const phase::Recipe recipe = recipe_of(settings, one, where, scene.folder);
-    media::Component component;
+    Kind kind{{}, recipe_of(settings, one, where, scene.folder)};
+    media::Component& component = kind.component;
     component.name = one.name;
-    auto& species = made[text_of(recipe)];
-    if (!species) species = phase::make_species(recipe, species_options);
-    component.species = species;
     component.grid = one.grid;
     component.world_from_index = placement(settings) * one.world_from_index;
     component.interpolation =
@@ -69,16 +75,42 @@ void add_medium(const MediumSettings& settings, const SceneSettings& scene, cons
     component.extinction_scale = one.is_species ? 1 : static_cast<float>(settings.extinction_per_m);
     component.albedo_scale = static_cast<float>(settings.albedo);
     component.size_um = one.size_um;
-    const std::vector<double>& sizes = component.species->size_nodes_um();
-    if (!one.is_species && component.size_um == 0) {
-      if (sizes.size() > 1 && options.log)
-        options.log(where + ": the grid has no sizes; all particles get the recipe's middle size node");
-      component.size_um = static_cast<float>(sizes[sizes.size() / 2]);
-    }
     if (one.is_species && settings.extinction_per_m != 1)
       throw bad_input(where + ": extinction_per_m", number_text(settings.extinction_per_m),
                       "must be left out: the grids of a species are in 1/m");
-    components.push_back(std::move(component));
+    kinds.push_back(std::move(kind));
+  }
+  return kinds;
+}
+
+/// Where the grid has no sizes and nobody says one.
+void choose_size(media::Component& component, const std::vector<double>& size_nodes_um, const std::string& where, const BuildOptions& options) {
+  if (component.size_um != 0 || component.grid->has_size()) return;
+  if (size_nodes_um.size() > 1 && options.log)
+    options.log(where + ": the grid has no sizes; all particles get the recipe's middle size node");
+  component.size_um = static_cast<float>(size_nodes_um[size_nodes_um.size() / 2]);
+}
+
+phase::SpeciesOptions species_options(const SceneSettings& scene, const BuildOptions& options) {
+  phase::SpeciesOptions result;
+  result.sun_angular_radius_rad = radians(scene.sun.angular_radius_deg);
+  if (scene.sun.irradiance_scale > 0) result.sun_elevation_deg = scene.sun.elevation_deg;
+  result.cache_folder = options.cache_folder;
+  result.log = options.log;
+  return result;
+}
+
+void add_medium(const MediumSettings& settings, const SceneSettings& scene, const BuildOptions& options, MadeSpecies& made,
+                std::vector<media::Component>& components) {
+  const std::string where = name_of(settings, scene);
+  for (Kind& kind : read_medium(settings, scene, options)) {
+    phase::SpeciesOptions with = species_options(scene, options);
+    if (settings.is_geometric) make_geometric(kind.recipe, with, where);
+    auto& species = made[text_of(kind.recipe) + (settings.is_geometric ? " by rays" : "")];
+    if (!species) species = phase::make_species(kind.recipe, with);
+    kind.component.species = species;
+    choose_size(kind.component, species->size_nodes_um(), where, options);
+    components.push_back(std::move(kind.component));
   }
 }
 
@@ -99,13 +131,60 @@ void report_depth(const media::Medium& medium, const BuildOptions& options) {
   options.log(text);
 }
 
-Surfaces make_surfaces(const SceneSettings& scene) {
+/// Such a medium is not there itself.
+bool is_shown_as_drops(const MediumSettings& medium, const SceneSettings& scene) {
+  return !medium.name.empty() &&
+         std::any_of(scene.droplets.begin(), scene.droplets.end(), [&](const DropletsSettings& drops) { return drops.medium == medium.name; });
+}
+
+/// The medium of that name.
+const MediumSettings& medium_of(const DropletsSettings& drops, const SceneSettings& scene, const std::string& where) {
+  std::vector<std::string> names;
+  for (const MediumSettings& medium : scene.media) {
+    if (medium.name == drops.medium) return medium;
+    if (!medium.name.empty()) names.push_back(medium.name);
+  }
+  throw bad_input(where + ": medium", "'" + drops.medium + "'", "the name of a [[medium]] of the scene expected" + (names.empty() ? "" : ": " + list_of(names)));
+}
+
+/// Drops that stand for a medium; `material` becomes what they are made of.
+PieceGroup drops_of_medium(const DropletsSettings& drops, const SceneSettings& scene, const std::string& where, const BuildOptions& options,
+                           MaterialSettings& material) {
+  std::vector<DropSource> sources;
+  for (Kind& kind : read_medium(medium_of(drops, scene, where), scene, options)) {
+    const phase::Recipe& recipe = kind.recipe;
+    if (!recipe.is_sphere())
+      throw bad_input(where + ": medium", "'" + drops.medium + "' with a phase function of type '" + recipe.type + "'",
+                      "a medium of drops expected: type mie or rain");
+    if (!sources.empty() && recipe.material != material.index)
+      throw bad_input(where + ": medium", "'" + drops.medium + "' with drops of '" + material.index + "' and of '" + recipe.material + "'",
+                      "drops of one material expected", "Choose one with the medium's key `grid`");
+    material.index = recipe.material;
+    material.index_constant = recipe.index;
+    choose_size(kind.component, recipe.size_um, where, options);
+    sources.push_back({std::move(kind.component), recipe.distribution, recipe.size_um,
+                       phase::cross_sections_at_550_nm_m2(phase::table_of(recipe, species_options(scene, options)))});
+  }
+  DrawnDrops drawn = drops_from_medium(sources, drops.count, drops.seed, where);
+  if (options.log) {
+    char text[100];
+    std::snprintf(text, sizeof text, ": %lld drops for %.4g, enlarged %.4g times", drops.count, drawn.number_meant, drawn.enlargement);
+    options.log(where + text);
+  }
+  material.enlargement = drawn.enlargement;
+  return std::move(drawn.group);
+}
+
+Surfaces make_surfaces(const SceneSettings& scene, const BuildOptions& options) {
   SurfaceParts parts;
   for (const SurfaceSettings& surface : scene.surfaces) parts.add(surface, scene.folder, spectrum_of_colour);
   for (std::size_t i = 0; i < scene.droplets.size(); ++i) {
     const DropletsSettings& drops = scene.droplets[i];
     const std::string where = scene.path + ": droplets[" + std::to_string(i) + "]";
-    parts.add(drops_in_box(drops, where), make_material(drops.material, scene.folder, spectrum_of_colour));
+    MaterialSettings material = drops.material;
+    material.enlargement = drops.scale;
+    PieceGroup group = drops.medium.empty() ? drops_in_box(drops, where) : drops_of_medium(drops, scene, where, options, material);
+    parts.add(std::move(group), make_material(material, scene.folder, spectrum_of_colour));
   }
   return Surfaces(std::move(parts), scene.render.intersector == "exhaustive");
 }
@@ -115,14 +194,15 @@ Surfaces make_surfaces(const SceneSettings& scene) {
 Scene build_scene(const SceneSettings& settings, const BuildOptions& options) {
   std::vector<media::Component> components;
   MadeSpecies made;
-  for (const MediumSettings& medium : settings.media) add_medium(medium, settings, options, made, components);
+  for (const MediumSettings& medium : settings.media)
+    if (!is_shown_as_drops(medium, settings)) add_medium(medium, settings, options, made, components);
   auto medium = std::make_unique<const media::Medium>(std::move(components));
   report_depth(*medium, options);
   const Curve irradiance = sun_irradiance(settings.sun, settings.folder);
   return Scene{.medium = std::move(medium),
                .sun = Sun(settings.sun, irradiance),
                .sky = Sky(settings.sky, irradiance),
-               .surfaces = make_surfaces(settings),
+               .surfaces = make_surfaces(settings, options),
                .camera = make_camera(settings.camera)};
 }
 

@@ -19,7 +19,7 @@ void list_keys(Keys& keys, RenderSettings& render) {
 }
 
 void list_keys(Keys& keys, MediumSettings& medium) {
-  keys.text("name", medium.name, "for messages");
+  keys.text("name", medium.name, "for messages, and for droplets drawn from it");
   keys.text("vdb", medium.vdb, "OpenVDB file, relative to the scene file");
   if (medium.vdb.empty() && !keys.documents()) keys.refuse("vdb", "nothing", "the name of a .vdb file expected");
   keys.text("grid", medium.grid,

@@ -35,6 +35,8 @@ struct MediumSettings {
   double albedo = 1;                   ///< multiplies the recipe's own
   std::string phase_file;              ///< a recipe file, relative to the scene file
   phase::Recipe phase;                 ///< where there is no recipe file
+  /// The same particles by geometric optics, as many of them: for comparison with explicit drops. Not a key.
+  bool is_geometric = false;
   bool has_phase = false;              ///< the scene gives a recipe; otherwise the VDB's own counts
   std::string interpolation = "linear";
   double scale = 1;                    ///< applied after the grid's own transform, in this order:

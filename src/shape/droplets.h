@@ -24,11 +24,12 @@ void list_keys(Keys& keys, DropRadiiSettings& radii);
 struct DropletsSettings {
   DropletsSettings() { material.type = "dielectric"; }
   std::string name;
+  std::string medium;            ///< name of the medium that they are drawn from; empty: the box and the radii count
   long long count = 1000;
   DropRadiiSettings radius_um;
   Vec3 low_m{-5, 20, 0}, high_m{5, 40, 10};  ///< the box
-  double scale = 1;              ///< multiplies the radii
-  MaterialSettings material;     ///< a body's keys alone
+  double scale = 1;              ///< multiplies the radii, and divides the absorption
+  MaterialSettings material;     ///< a body's keys alone; with a medium its recipe's index counts
   long long seed = 1;
 };
 void list_keys(Keys& keys, DropletsSettings& droplets);
