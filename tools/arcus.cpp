@@ -56,6 +56,7 @@ static int run(int argc, char** argv) {
   add_info(program);
   add_profile(program);
   add_compare(program);
+  add_compare_droplets(program);
   add_reference(program);
   try {
     program.parse(argc, argv);

@@ -31,6 +31,7 @@ void add_phase(CLI::App& program);
 void add_info(CLI::App& program);
 void add_profile(CLI::App& program);
 void add_compare(CLI::App& program);
+void add_compare_droplets(CLI::App& program);
 void add_reference(CLI::App& program);
 
 }  // namespace arcus::tools

@@ -7,6 +7,7 @@
 
 #include "src/analysis/chart.h"
 #include "src/analysis/compare.h"
+#include "src/analysis/html_page.h"
 #include "src/analysis/pixel_pairs.h"
 #include "src/film/image_file.h"
 
@@ -42,43 +43,6 @@ DisplayPicture painted(const Image& a, const Image& b, const std::string& channe
     picture.rgb.insert(picture.rgb.end(), colour.begin(), colour.end());
   });
   return picture;
-}
-
-std::string base64(std::string_view bytes) {
-  static constexpr char digits[] =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += i + k > bytes.size() ? '=' : digits[group >> (18 - 6 * k) & 63u];
-  }
-  return text;
-}
-
-std::string escaped(std::string_view words) {
-  std::string text;
-  for (const char c : words) {
-    if (c == '<')
-      text += "&lt;";
-    else if (c == '>')
-      text += "&gt;";
-    else if (c == '&')
-      text += "&amp;";
-    else if (c == '"')
-      text += "&quot;";
-    else
-      text += c;
-  }
-  return text;
-}
-
-std::string figure(const std::string& png, const std::string& words, const char* kind = "picture") {
-  return std::string("<figure><img class=\"") + kind + "\" alt=\"" + escaped(words) +
-         "\" src=\"data:image/png;base64," + base64(png) + "\"><figcaption>" + escaped(words) +
-         "</figcaption></figure>\n";
 }
 
 /// A quantile of |a - b|, or of the brightness of b, over the finite pixels; 0 where there is none.
@@ -156,36 +120,32 @@ std::string html_report(const Image& a, const Image& b, const Comparison& compar
   const double bright = quantile(a, b, shown, 0.995, [](const PixelPair& p) { return p.b; });
   const ToneSettings tone{0, bright > 0 ? bright / 0.6 : 1};
   char number[60];
-  std::string page =
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<title>Comparison</title>\n<style>\n"
-      "body{font-family:sans-serif;max-width:1500px;margin:1.5em auto;padding:0 1em;color:#222}\n"
-      "figure{display:inline-block;margin:.4em;max-width:48%;vertical-align:top}img{max-width:100%}\n"
-      ".picture{min-width:20em;image-rendering:pixelated}.chart{width:720px}\n"
-      "figcaption{color:#555;font-size:.9em}pre{background:#f4f4f6;padding:1em;overflow-x:auto}\n</style></head><body>\n"
-      "<h1>Comparison</h1>\n<p>A: " +
-      escaped(name_a) + "<br>B: " + escaped(name_b) + "</p>\n<pre>" +
-      escaped(figures_text(comparison)) + "</pre>\n<h2>Pictures</h2>\n";
-  page += figure(png_bytes(tone_mapped(a, tone)), "A");
-  page += figure(png_bytes(tone_mapped(b, tone)), "B, at the same exposure");
-  page += "<h2>Difference</h2>\n";
+  HtmlPage page("Comparison");
+  page.add_paragraph("A: " + std::string(name_a));
+  page.add_paragraph("B: " + std::string(name_b));
+  page.add_preformatted(figures_text(comparison));
+  page.add_heading("Pictures");
+  page.add_picture(png_bytes(tone_mapped(a, tone)), "A");
+  page.add_picture(png_bytes(tone_mapped(b, tone)), "B, at the same exposure");
+  page.add_heading("Difference");
   for (const ChannelDifference& c : comparison.channels) {
     if (c.name.starts_with("S0.")) continue;  // dozens of nearly equal pictures
     const double full =
         quantile(a, b, c.name, 0.99, [](const PixelPair& p) { return std::fabs(p.a - p.b); });
     const double scale = full > 0 ? full : c.largest;
     std::snprintf(number, sizeof number, "%.3g", scale);
-    page += figure(png_bytes(difference_picture(a, b, c.name, scale), true),
-                   c.name + ": A − B, red where A is brighter, full colour at " + number);
+    page.add_picture(png_bytes(difference_picture(a, b, c.name, scale), true),
+                     c.name + ": A − B, red where A is brighter, full colour at " + number);
     if (c.noise)
-      page += figure(png_bytes(z_picture(a, b, c.name), true),
-                     c.name + ": z, full colour at 4 standard deviations");
+      page.add_picture(png_bytes(z_picture(a, b, c.name), true), c.name + ": z, full colour at 4 standard deviations");
   }
   const bool has_z = std::any_of(comparison.channels.begin(), comparison.channels.end(),
                                  [](const auto& c) { return c.noise && c.noise->pixels > 0; });
-  if (has_z)
-    page += "<h2>Against the noise</h2>\n" +
-            figure(png_of(z_histogram(a, b, comparison)), "histogram of z", "chart");
-  return page + "</body></html>\n";
+  if (has_z) {
+    page.add_heading("Against the noise");
+    page.add_chart(png_of(z_histogram(a, b, comparison)), "histogram of z");
+  }
+  return page.text();
 }
 
 }  // namespace arcus::render
