@@ -12,6 +12,9 @@
 namespace arcus::render {
 namespace {
 
+/// The medium gets so many times fewer samples: it is a thousand times less noisy.
+constexpr long long fewer_for_medium = 16;
+
 using Series = std::vector<std::vector<double>>;  // [run][place]
 
 RunMeans means_of(const Series& runs) {
@@ -50,9 +53,11 @@ struct Shown {
   Series profiles, blocks;
   Profile last;
   ToneSettings tone;
+  double seconds = 0;
 
   void add(Picture picture, const DropsComparisonOptions& options, bool has_directions, std::string_view where) {
     tone = picture.tone;
+    seconds += picture.run.progress.seconds;
     blocks.push_back(block_means(picture.image, options.blocks));
     if (has_directions) {
       last = measure_profile(picture.image, options.profile, where);
@@ -66,6 +71,13 @@ struct Shown {
       image.values()[i] += (picture.image.values()[i] - image.values()[i]) / static_cast<float>(blocks.size());
   }
 };
+
+/// Squared standard errors, all together.
+double noise(const RunMeans& means) {
+  double sum = 0;
+  for (const double error : means.standard_error) sum += error * error;
+  return sum;
+}
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -83,12 +95,13 @@ class Comparer {
     scene_.film.channels = {"rgb", "xyz"};
     scene_.render.intersector = "hierarchy";
     samples_ = std::max(1LL, scene_.render.samples_per_pixel / options_.runs);
+    medium_samples_ = std::max(1LL, samples_ / fewer_for_medium);
   }
 
   SceneSettings as_medium(bool is_geometric) const {
     SceneSettings scene = scene_;
     scene.render.integrator = "volume_path";
-    scene.render.samples_per_pixel = samples_;
+    scene.render.samples_per_pixel = medium_samples_;
     for (MediumSettings& medium : scene.media) medium.is_geometric = is_geometric;
     return scene;
   }
@@ -118,7 +131,7 @@ class Comparer {
     result.drops = options_.drops;
     Shown medium, drops, waves;
     const SceneSettings medium_settings = as_medium(true), wave_settings = as_medium(false);
-    say("the medium by geometric optics, " + std::to_string(options_.runs) + " runs of " + std::to_string(samples_) + " samples a pixel");
+    say("the medium by geometric optics, " + std::to_string(options_.runs) + " runs of " + std::to_string(medium_samples_) + " samples a pixel");
     const Scene medium_scene = build_scene(medium_settings, options_.build);
     const auto render_runs = [&](SceneSettings settings, const Scene& scene, Shown& shown) {
       for (int run = 0; run < options_.runs && !is_stopped(); ++run) {
@@ -127,6 +140,7 @@ class Comparer {
       }
     };
     render_runs(medium_settings, medium_scene, medium);
+    const std::vector<media::Ray> rays = rays_through(medium_scene, result.depth);
     std::vector<double> passed;
     for (int run = 0; run < options_.runs && !is_stopped(); ++run) {
       say("explicit drops, run " + std::to_string(run + 1) + " of " + std::to_string(options_.runs));
@@ -134,7 +148,7 @@ class Comparer {
       if (run > 0) build.log = {};
       const SceneSettings settings = as_drops(options_.drops, run);
       const Scene scene = build_scene(settings, build);
-      compare_depth(medium_scene, scene, passed, result.depth);
+      passed.push_back(share_without_drops(rays, scene));
       drops.add(render_picture(settings, scene, {}, options_.run), options_, has_directions, scene_.path);
     }
     say("the medium by its own optics");
@@ -144,11 +158,15 @@ class Comparer {
 
     result.runs = options_.runs;
     result.samples_per_pixel = samples_ * options_.runs;
+    result.medium_samples_per_pixel = medium_samples_ * options_.runs;
+    result.drops_s = drops.seconds;
+    result.medium_s = medium.seconds;
     finish_depth(passed, result.depth);
     result.tone = medium.tone;
     result.medium_blocks = means_of(medium.blocks);
     result.drops_blocks = means_of(drops.blocks);
     result.block_agreement = agreement_of(drops.blocks, medium.blocks);
+    result.time_for_equal_error = noise(result.drops_blocks) * drops.seconds / (noise(result.medium_blocks) * medium.seconds);
     if (has_directions) {
       result.around = medium.last.around;
       result.angle_deg = medium.last.angle_deg;
@@ -169,12 +187,12 @@ class Comparer {
     if (options_.log && !is_stopped()) options_.log(words);
   }
 
-  /// One more run of drops: the share of the camera's rays through the medium that meets none.
-  void compare_depth(const Scene& medium, const Scene& drops, std::vector<double>& passed, DepthComparison& depth) const {
+  /// The camera's rays through the medium, up to the surfaces behind it.
+  std::vector<media::Ray> rays_through(const Scene& medium, DepthComparison& depth) const {
     const int width = scene_.camera.width_px, height = scene_.camera.height_px;
     const int step = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(width) * height / 40000)));
-    double by_medium = 0, by_drops = 0;
-    depth.rays = 0;
+    std::vector<media::Ray> rays;
+    double passed = 0;
     for (int y = 0; y < height; y += step)
       for (int x = 0; x < width; x += step) {
         auto ray = medium.camera->ray(x + 0.5, y + 0.5);
@@ -183,20 +201,23 @@ class Comparer {
         if (end) ray->farthest_m = end->distance_m * (1 - 1e-9);
         const double tau = media::optical_depth(*medium.medium, *ray, 550);
         if (!(tau > 1e-3)) continue;
-        by_medium += std::exp(-tau);
-        by_drops += drops.surfaces.is_blocked(*ray) ? 0 : 1;
-        ++depth.rays;
+        passed += std::exp(-tau);
+        rays.push_back(*ray);
       }
-    const auto rays = static_cast<double>(std::max<std::size_t>(depth.rays, 1));
-    depth.medium = by_medium / rays;
-    passed.push_back(by_drops / rays);
+    depth.rays = rays.size();
+    depth.medium = -std::log(passed / static_cast<double>(std::max<std::size_t>(rays.size(), 1)));
+    return rays;
+  }
+
+  static double share_without_drops(const std::vector<media::Ray>& rays, const Scene& drops) {
+    const auto passed = std::count_if(rays.begin(), rays.end(), [&](const media::Ray& ray) { return !drops.surfaces.is_blocked(ray); });
+    return static_cast<double>(passed) / static_cast<double>(std::max<std::size_t>(rays.size(), 1));
   }
 
   static void finish_depth(const std::vector<double>& passed, DepthComparison& depth) {
     Series runs;
     for (const double share : passed) runs.push_back({share});
     const RunMeans mean = means_of(runs);
-    depth.medium = -std::log(depth.medium);
     depth.drops = -std::log(mean.mean[0]);
     depth.drops_error = mean.mean[0] > 0 ? mean.standard_error[0] / mean.mean[0] : 0;
   }
@@ -231,7 +252,7 @@ class Comparer {
 
   const DropsComparisonOptions& options_;
   SceneSettings scene_;
-  long long samples_;  // a pixel and run
+  long long samples_, medium_samples_;  // a pixel and run
 };
 
 }  // namespace

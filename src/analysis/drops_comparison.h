@@ -60,7 +60,11 @@ struct TimedRender {
 struct DropsComparison {
   std::string scene;
   double sun_radius_deg = 0;
-  long long drops = 0, samples_per_pixel = 0;
+  long long drops = 0, samples_per_pixel = 0;  ///< of the drops ...
+  long long medium_samples_per_pixel = 0;      ///< ... and of the medium, in all runs
+  double drops_s = 0, medium_s = 0;            ///< that rendering took, in all runs
+  /// How much longer the drops need for the same error: mean over the blocks of squared standard error times seconds, over the medium's.
+  double time_for_equal_error = 0;
   int runs = 0;
   Image medium, explicit_drops, waves;  ///< means of the runs: R, G, B, X, Y, Z
   ToneSettings tone;

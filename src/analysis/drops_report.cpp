@@ -85,7 +85,9 @@ LineChart time_chart(const DropsComparison& c) {
 }  // namespace
 
 std::string figures_text(const DropsComparison& c) {
-  std::string text = written("%lld drops, %d runs, %lld samples a pixel in all, sun of radius %g degrees\n", c.drops, c.runs, c.samples_per_pixel, c.sun_radius_deg);
+  std::string text = written("%lld drops, %d runs, sun of radius %g degrees\n", c.drops, c.runs, c.sun_radius_deg);
+  text += written("samples a pixel, in all runs: medium %lld in %.1f s, drops %lld in %.1f s; for the same error drops need %.0f times the medium's time\n",
+                  c.medium_samples_per_pixel, c.medium_s, c.samples_per_pixel, c.drops_s, c.time_for_equal_error);
   text += written("optical depth along the camera's rays: medium %.4f, drops %.4f +- %.4f (%zu rays a run)\n", c.depth.medium, c.depth.drops, c.depth.drops_error,
                   c.depth.rays);
   if (!c.around.empty()) text += agreement_text("profile", c.profile_agreement);

@@ -138,8 +138,9 @@ TEST(PathTracer, ClearBodiesAreInvisibleInAnEvenSky) {
     const Scene scene = scene_of(std::move(parts), {.irradiance_scale = 0}, 2);
     for (const double x : {0.0, 0.6, 0.99, 2.0}) {
       const media::Ray ray{Vec3(x, -5, 0.1), Vec3(0, 1, 0)};
-      // Every path brings exactly the sky: its whole spectrum, or one wavelength for all four.
-      EXPECT_TRUE(statistics::mean_is(traced(PathTracer(scene, 1000), ray, 200), 2, {.tolerance = 1e-5}));
+      // A path's branches bring the sky together, but for the least of them, which are left to chance.
+      EXPECT_TRUE(statistics::mean_is(traced(PathTracer(scene, 1000), ray, 20000), 2, {.tolerance = 1e-5}));
+      // A path brings exactly the sky: its whole spectrum, or one wavelength for all four.
       EXPECT_TRUE(statistics::mean_is(traced(VolumePath(scene, 1000), ray, 200), 2, {.tolerance = 1e-5}));
       // The tree leaves out what brings less than a ten-thousandth.
       EXPECT_NEAR(traced(Whitted(scene, 60), ray, 20).mean(), 2, 0.004);
