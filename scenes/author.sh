@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Authors the media of the scenes in this folder. Usage: scenes/author.sh ARCUS NAME (rain_shower | cumulus | fogbow | glory | corona | halo_22 | parhelia | circumzenithal | display | slab)
+# Authors the media of the scenes in this folder. Usage: scenes/author.sh ARCUS NAME (rain_shower | cumulus | fogbow | glory | corona | halo_22 | parhelia | circumzenithal | display | droplets | slab)
 set -euo pipefail
 arcus=$(realpath "${1:?usage: author.sh ARCUS NAME}")
 cd "$(dirname "${BASH_SOURCE[0]}")"
@@ -36,6 +36,9 @@ case "${2:?usage: author.sh ARCUS NAME}" in
   display)
     "$arcus" author cirrus -o display.vdb --kind cirrostratus --habits plate,column,parry,random_column --shares 0.3,0.4,0.05,0.25 --optical-depth 1 \
       --size-m 300000 --base-m 7000 --top-m 8500 --voxel-m 500 --tilt-deg 1,0.5,0.5,1 --length-over-width 5 --size-nodes 1 --seed 3 ;;
+  droplets)
+    "$arcus" author box -o droplets.vdb --name rain --extinction-per-m 0.1 --centre-m 0,25,10 --size-m 48,10,20 --voxels 96,20,40 --size-um 500 \
+      --phase-type mie --phase-size-um 500 --phase-distribution-variance 0.01 ;;
   slab)
     "$arcus" author box -o slab.vdb --name layer --optical-depth 5 --centre-m 0,0,0 --size-m 100000,100000,1 --voxels 4,4,4 \
       --phase-type hg --phase-g 0.85 ;;

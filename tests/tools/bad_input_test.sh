@@ -80,6 +80,19 @@ drops 'radius_um = { effective = 20000000 }'
 expect 2 'droplets\[0\]: box_m.*must fit into the box' "$ARCUS" render d.toml
 drops "$(printf 'count = 5000\nradius_um = { effective = 900000 }')"
 expect 2 'droplets\[0\]: [0-9]+ of 5000 drops without room.*larger box' "$ARCUS" render d.toml
+drops 'medium = "rain"'
+expect 2 "droplets\[0\]: medium: 'rain' found; the name of a \[\[medium\]\]" "$ARCUS" render d.toml
+drops "$(printf 'medium = "rain"\nbox_m = [[0, 0, 0], [1, 1, 1]]')"
+expect 2 'd.toml:7.*box_m' "$ARCUS" render d.toml
+"$ARCUS" author box -o grey.vdb --quiet --phase-type hg
+drops "$(printf 'medium = "grey"\n[[medium]]\nname = "grey"\nvdb = "grey.vdb"')"
+expect 2 "droplets\[0\]: medium: 'grey' with a phase function of type 'hg'.*mie or rain" "$ARCUS" render d.toml
+printf '[[medium]]\nvdb = "grey.vdb"\n' >g.toml
+expect 2 "medium .*phase function of type 'hg' found; drops expected" "$ARCUS" compare-droplets g.toml -o r.html
+printf '[camera]\nresolution = [8, 8]\n' >g.toml
+expect 2 'g.toml: no \[\[medium\]\]' "$ARCUS" compare-droplets g.toml -o r.html
+expect 2 'runs' "$ARCUS" compare-droplets g.toml -o r.html --runs 2
+absent r.html
 drops 'count = 4000000000'
 expect 1 'droplets\[0\]: 4e\+09 drops need about .* enough for' "$ARCUS" render d.toml
 scene d.toml '[render]' 'integrator = "path"'

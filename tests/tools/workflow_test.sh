@@ -186,4 +186,12 @@ rm cut.exr
 interrupt INT 130 --spp 1000000
 expect 0 'samples_per_pixel' "$ARCUS" info cut.exr
 
+# A medium against drops drawn from it.
+must "$ARCUS" author box -o drops.vdb --quiet --centre-m 0,20,0 --size-m 20,10,20 --optical-depth 0.2 --size-um 500 \
+  --phase-optics geometric --phase-size-um 500 --phase-distribution-variance 0.01 --phase-wavelength-nm 380,780
+printf '[render]\nsamples_per_pixel = 64\n[camera]\nresolution = [16, 12]\n[sun]\nazimuth_deg = 180\nelevation_deg = 0\n[[medium]]\nvdb = "drops.vdb"\n' >drops.toml
+expect 0 'profile: chi-square .* light of drops over that of the medium' "$ARCUS" compare-droplets drops.toml -o drops.html --drops 2000 --runs 4 --sun-radius-deg 20 --bin-deg 5 --to-deg 30
+check 'the page has no pictures' bash -c '[ "$(grep -o "data:image/png" drops.html | wc -l)" -ge 6 ]'
+check 'times are missing' grep -q 'time of 2000 drops' drops.html
+
 finish
