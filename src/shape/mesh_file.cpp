@@ -6,33 +6,18 @@
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
 #include "phase/base/error.h"
+#include "src/shape/ply_length.h"
 
 namespace arcus::render {
-
-namespace {
-
-bool has_whole_header(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string line;
-  for (int lines = 0; lines < 1000 && std::getline(file, line); ++lines) {
-    if (lines == 0 && !line.starts_with("ply")) return false;
-    if (line.starts_with("end_header")) return true;
-  }
-  return false;
-}
-
-}  // namespace
 
 std::vector<Triangle> read_mesh(const std::string& path, const std::string& where) {
   std::string kind = std::filesystem::path(path).extension().string();
   for (char& c : kind) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   if (kind != ".ply" && kind != ".obj") throw bad_input(where, "'" + path + "'", "a .ply or .obj file expected");
   if (!std::filesystem::is_regular_file(path)) throw bad_input(where + ": " + path, "no file", "a .ply or .obj file expected", "Check the name and the folder");
-  // assimp reads for ever in a PLY file whose header has no end.
-  if (kind == ".ply" && !has_whole_header(path)) throw bad_input(where + ": " + path, "a header without end_header", "a PLY file expected");
+  if (kind == ".ply") check_ply_length(path, where + ": " + path);
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_PreTransformVertices);
   if (!scene) throw bad_input(where + ": " + path, "no readable mesh (" + std::string(importer.GetErrorString()) + ")", "PLY or OBJ expected");

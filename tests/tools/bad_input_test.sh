@@ -71,6 +71,11 @@ expect 2 'none.obj: no file' "$ARCUS" render s.toml
 printf 'ply\nformat ascii 1.0\nelement vertex 4\n' >cut.ply
 surface 'type = "mesh", file = "cut.ply"' 'albedo = 0.5'
 expect 2 'cut.ply: a header without end_header' "$ARCUS" render s.toml
+plane_ply() { printf 'ply\nformat %s 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n' "$1"; }
+{ plane_ply ascii; printf '0 0 0\n1 0 0\n1 1 0\n0 1 0\n'; } >cut.ply
+expect 2 "cut.ply: 0 of 1 entries of 'face'.*cut off" "$ARCUS" render s.toml
+{ plane_ply binary_little_endian; head -c 40 /dev/zero; } >cut.ply
+expect 2 "cut.ply: 3 of 4 entries of 'vertex'.*cut off" timeout 20 "$ARCUS" render s.toml
 drops() { printf '[render]\nintegrator = "path"\n[camera]\nresolution = [8, 8]\n[[droplets]]\n%s\n' "$1" >d.toml; }
 drops 'box_m = [[0, 0, 0], [1, 1]]'
 expect 2 'd.toml:6.*box_m.*two corners' "$ARCUS" render d.toml
