@@ -64,6 +64,9 @@ class Surfaces {
   bool is_blocked(const media::Ray& ray, const Departure& departure = {}) const;
   /// Around all but the planes.
   const media::Box& bounds_m() const { return bounds_m_; }
+  bool has_planes() const { return !planes_.empty(); }
+  /// Those planes that are no matte ones, as hits name them.
+  std::vector<PieceId> smooth_planes() const;
   const std::vector<PieceGroup>& groups() const { return *groups_; }
   const std::vector<Material>& materials() const { return *materials_; }
 
