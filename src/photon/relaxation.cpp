@@ -52,7 +52,7 @@ struct Push {
   double spacing_m = 0;
 };
 
-Push push_on(const Vec3& normal, std::span<const Neighbour> others, const auto& offset_to, const Relaxation& relaxation) {
+Push push_on(const Vec3& normal, std::span<const Neighbour> others, const auto& offset_to, const Relaxation& relaxation, double strength) {
   const double radius_m = std::sqrt(others.back().squared_distance_m2);
   if (!(radius_m > 0)) return {};
   const double spacing_m = radius_m * std::sqrt(pi / static_cast<double>(others.size())), reach_m = relaxation.reach * spacing_m;
@@ -63,7 +63,7 @@ Push push_on(const Vec3& normal, std::span<const Neighbour> others, const auto& 
     const double distance_m = std::sqrt(other.squared_distance_m2);
     if (distance_m > 0 && distance_m < reach_m) sum -= offset_m * ((1 - distance_m / reach_m) / distance_m);
   }
-  Vec3 move_m = sum * (relaxation.strength * spacing_m);
+  Vec3 move_m = sum * (strength * spacing_m);
   move_m -= normal * dot(move_m, normal);
   const double aside = length(centroid_m) / radius_m;
   if (aside > relaxation.edge_begins) {
@@ -74,6 +74,25 @@ Push push_on(const Vec3& normal, std::span<const Neighbour> others, const auto& 
   const double far = length(move_m), limit_m = relaxation.longest_move * spacing_m;
   if (far > limit_m) move_m *= limit_m / far;
   return {move_m, spacing_m};
+}
+
+/// Adds the pushes within a sheet to those of all photons.
+void add_pushes(const std::vector<Photon>& photons, const Sheet& sheet, const Relaxation& relaxation, double strength,
+                std::vector<Push>& pushes) {
+  std::vector<Vec3> points_m;
+  points_m.reserve(sheet.photons.size());
+  for (const std::uint32_t i : sheet.photons) points_m.push_back(photons[i].position_m);
+  const PointTree tree(points_m);
+  tbb::parallel_for(std::size_t{0}, sheet.photons.size(), [&](std::size_t i) {
+    std::vector<Neighbour> nearest(static_cast<std::size_t>(relaxation.neighbours) + 1);
+    tree.nearest(points_m[i], nearest);
+    // The photon itself stands first, or another in the very same place.
+    const Push push = push_on(photons[sheet.photons[i]].normal.full(), std::span<const Neighbour>(nearest).subspan(1),
+                              [&](std::uint32_t j) { return points_m[j] - points_m[i]; }, relaxation, strength);
+    Push& sum = pushes[sheet.photons[i]];
+    sum.move_m += push.move_m;
+    if (sum.spacing_m == 0) sum.spacing_m = push.spacing_m;
+  });
 }
 
 /// The photon moved on its surface; nothing where it would leave it.
@@ -89,40 +108,33 @@ std::optional<Hit> snapped(const Photon& photon, const Push& push, const Surface
 
 Relaxed relax(std::vector<Photon>& photons, const Surfaces& surfaces, const Relaxation& relaxation) {
   const auto neighbours = static_cast<std::size_t>(relaxation.neighbours);
-  std::vector<std::uint32_t> order;
-  std::vector<Sheet> sheets = sheets_of(photons, relaxation.wavelength_bands, order);
-  std::erase_if(sheets, [&](const Sheet& sheet) { return sheet.photons.size() <= neighbours; });
-  std::vector<double> moves(photons.size());
+  std::vector<std::vector<std::uint32_t>> orders(2);
+  std::vector<std::vector<Sheet>> levels;
+  levels.push_back(sheets_of(photons, 1, orders[0]));
+  if (relaxation.wavelength_bands > 1) levels.push_back(sheets_of(photons, relaxation.wavelength_bands, orders[1]));
+  for (std::vector<Sheet>& sheets : levels) std::erase_if(sheets, [&](const Sheet& sheet) { return sheet.photons.size() <= neighbours; });
   Relaxed result;
-  while (result.iterations < relaxation.iterations && !sheets.empty()) {
-    double sum = 0, count = 0;
-    for (const Sheet& sheet : sheets) {
-      std::vector<Vec3> points_m;
-      points_m.reserve(sheet.photons.size());
-      for (const std::uint32_t i : sheet.photons) points_m.push_back(photons[i].position_m);
-      const PointTree tree(points_m);
-      tbb::parallel_for(std::size_t{0}, sheet.photons.size(), [&](std::size_t i) {
-        Photon& photon = photons[sheet.photons[i]];
-        const Vec3 from_m = points_m[i];
-        std::vector<Neighbour> nearest(neighbours + 1);
-        tree.nearest(from_m, nearest);
-        // The photon itself stands first, or another in the very same place.
-        const Push push = push_on(photon.normal.full(), std::span<const Neighbour>(nearest).subspan(1),
-                                  [&](std::uint32_t j) { return points_m[j] - from_m; }, relaxation);
-        moves[i] = 0;
-        if (push.spacing_m == 0) return;
-        if (const auto hit = snapped(photon, push, surfaces)) {
-          moves[i] = length(hit->position_m - from_m) / push.spacing_m;
-          photon.position_m = hit->position_m;
-          photon.normal = ShortVec(hit->normal);
-          photon.piece = hit->piece;
-        }
-      });
-      sum = std::accumulate(moves.begin(), moves.begin() + static_cast<std::ptrdiff_t>(sheet.photons.size()), sum);
-      count += static_cast<double>(sheet.photons.size());
-    }
+  if (levels.front().empty()) return result;
+  std::vector<Push> pushes;
+  std::vector<double> moves;
+  while (result.iterations < relaxation.iterations) {
+    pushes.assign(photons.size(), {});
+    for (const std::vector<Sheet>& sheets : levels)
+      for (const Sheet& sheet : sheets)
+        add_pushes(photons, sheet, relaxation, &sheets == &levels.front() ? relaxation.strength : relaxation.colour_strength, pushes);
+    moves.assign(photons.size(), 0);
+    tbb::parallel_for(std::size_t{0}, photons.size(), [&](std::size_t i) {
+      if (pushes[i].spacing_m == 0) return;
+      Photon& photon = photons[i];
+      const auto hit = snapped(photon, pushes[i], surfaces);
+      if (!hit) return;
+      moves[i] = length(hit->position_m - photon.position_m) / pushes[i].spacing_m;
+      photon.position_m = hit->position_m;
+      photon.normal = ShortVec(hit->normal);
+      photon.piece = hit->piece;
+    });
     ++result.iterations;
-    result.last_move = sum / count;
+    result.last_move = std::accumulate(moves.begin(), moves.end(), 0.0) / static_cast<double>(photons.size());
     if (result.last_move < relaxation.enough) break;
   }
   return result;

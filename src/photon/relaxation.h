@@ -21,7 +21,10 @@ struct Relaxation {
   /// across begin to be held back, and from where on there are none.
   double edge_begins = 0.2, edge_holds = 0.3;
   double enough = 0.02;         ///< it stops when the mean move is less, in spacings
-  int wavelength_bands = 1;     ///< photons of parted colours push only those of the same one of so many equal parts of the visible range
+  /// Photons of parted colours push those of like colour besides, farther away, so that each colour lies evenly: in so many parts of the
+  /// visible range. 1: no difference of colours.
+  int wavelength_bands = 4;
+  double colour_strength = 0.1; ///< of that push
 };
 
 /// What came of it.
