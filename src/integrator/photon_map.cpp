@@ -10,6 +10,8 @@
 namespace arcus::render {
 namespace {
 
+/// How many more photons are sent towards smooth surfaces than over the whole scene, whose light is looked up one bounce away.
+constexpr std::uint32_t targeted_per_other = 4;
 /// Turns before roulette may end a path.
 constexpr long long certain_bounces = 4;
 constexpr double progressive_alpha = 2.0 / 3;
@@ -56,11 +58,12 @@ PhotonMap::PhotonMap(const Scene& scene, const RenderSettings& settings)
       has_sky_(!scene.sky.is_dark()),
       tracer_(scene, settings.max_bounces) {
   const auto count = static_cast<std::uint32_t>(settings.photons);
+  const std::uint32_t count_over_all = tracer_.has_targets() ? (count + targeted_per_other - 1) / targeted_per_other : count;
   const auto seed = static_cast<std::uint64_t>(settings.seed);
   bool has_any = false;
   for (int i = 0; i < settings.passes; ++i) {
     const auto number = static_cast<std::uint32_t>(i);
-    LandedPhotons caustic = tracer_.caustic(count, seed, number), all = tracer_.all(count, seed, number, final_gather_);
+    LandedPhotons caustic = tracer_.caustic(count, seed, number), all = tracer_.all(count_over_all, seed, number, final_gather_);
     has_any |= !caustic.on_surfaces.empty() || !caustic.in_media.empty() || !all.on_surfaces.empty() || !all.in_media.empty();
     const Relaxed relaxed = relax(caustic.on_surfaces, scene.surfaces, {.iterations = static_cast<int>(settings.iterations)});
     passes_.push_back({PhotonStore(std::move(caustic.on_surfaces)), PhotonStore(std::move(caustic.in_media)), PhotonStore(std::move(all.on_surfaces)),

@@ -153,10 +153,13 @@ bool PhotonTracer::meets_medium(Flight& flight, const std::optional<Hit>& hit, L
     const Spectrum& extinction = collision.extinction_per_m;
     if (flight.random.uniform() * collision.majorant_per_m < extinction[0]) {
       if (stores) {
-        // How likely another wavelength had made it collide here enters beside how likely it came here.
+        // Photons collide as often as the extinction says; the walk's own value may be that of one voxel near, drawn. How likely another
+        // wavelength had made it collide here enters beside how likely it came here.
+        const Spectrum mean = scene_.medium->extinction_per_m(collision.position_m, flight.wavelengths);
+        if (!(mean[0] > 0)) return false;
         Flight here = flight;
-        here.density *= extinction / extinction[0];
-        here.weight *= 1 / extinction[0];
+        here.density *= mean / mean[0];
+        here.weight *= 1 / mean[0];
         landed.in_media.push_back(here.landed_at(collision.position_m));
       }
       if (!goes_on) return true;

@@ -41,6 +41,8 @@ class PhotonTracer {
   /// Where photons land: all that is of finite size, and with a plane four times as far.
   const Ball& region() const { return region_; }
 
+  /// Whether there are mirrors or clear bodies.
+  bool has_targets() const { return !targets_.empty(); }
   /// Light that has met smooth surfaces alone before it lands (L S+ D). Its number `count` is of photons sent.
   LandedPhotons caustic(std::uint32_t count, std::uint64_t seed, std::uint32_t pass) const;
   /// All sunlight wherever it lands; without `first`, what lands straight from the sun and what caustic() has are left out.

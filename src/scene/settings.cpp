@@ -17,7 +17,7 @@ void list_keys(Keys& keys, RenderSettings& render) {
                "scatterings and reflections a path may have; 0: only what is seen directly");
   keys.integer("seed", render.seed, between(0, 9e15), "another seed, another noise");
   keys.integer("photons", render.photons, between(1, 1e9),
-               "photon_map: sent in a pass towards mirrors and clear bodies, and as many over the whole scene");
+               "photon_map: sent in a pass towards mirrors and clear bodies, and a quarter as many over the whole scene; all of them without such bodies");
   keys.integer("neighbours", render.neighbours, between(1, 1000),
                "photon_map: photons around a place that its light is estimated from; 50 to 200, after relaxation 8 to 12");
   keys.integer("iterations", render.iterations, between(0, 1000), "photon_map: of photon relaxation, at most; 0: none");

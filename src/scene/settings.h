@@ -24,7 +24,7 @@ struct RenderSettings {
   long long max_bounces = 128;  ///< scatterings and reflections a path may have; 0: only what is seen directly
   long long seed = 1;
   // Of photon_map:
-  long long photons = 1000000;  ///< sent in a pass towards mirrors and clear bodies, and as many over the whole scene
+  long long photons = 1000000;  ///< sent in a pass towards mirrors and clear bodies, if there are any, and a quarter as many over the whole scene
   long long neighbours = 50;    ///< photons that a density is estimated from
   long long iterations = 0;     ///< of relaxation, at most; 0: none
   long long passes = 1;         ///< maps that are averaged, the later ones with fewer neighbours
