@@ -127,9 +127,10 @@ bool PhotonMap::meet(Path& path, const Hit& hit, Sample& sample) const {
   const Spectrum albedo = matte->albedo_at(hit.position_m).at(sample.wavelengths);
   const Departure departure = hit.departure(false);
   const Spectrum per_irradiance = albedo * sample.sunlight.irradiance_w_per_m2_nm * static_cast<float>(1 / pi);
+  const Flat* flat = scene_.surfaces.flat(hit.piece);
   const bool is_mapped = tracer_.region().contains(hit.position_m);
   if (path.wants == Sunlight::beyond_one && is_mapped) {
-    const Gathered all = sample.maps.on_surfaces.irradiance(hit.position_m, hit.normal, sample.maps.neighbours, sample.query);
+    const Gathered all = sample.maps.on_surfaces.irradiance(hit.position_m, hit.normal, sample.maps.neighbours, sample.query, flat);
     // From a corner the blur would be seen: there it is looked up another bounce away.
     if (hit.distance_m < all.radius_m) {
       path.wants = Sunlight::all;
@@ -151,7 +152,7 @@ bool PhotonMap::meet(Path& path, const Hit& hit, Sample& sample) const {
     path.sees_disc = false;
     if (is_mapped) {
       const auto look_up = [&](const PhotonStore& photons) {
-        sample.add(path, per_irradiance * photons.irradiance(hit.position_m, hit.normal, sample.maps.neighbours, sample.query).value);
+        sample.add(path, per_irradiance * photons.irradiance(hit.position_m, hit.normal, sample.maps.neighbours, sample.query, flat).value);
       };
       look_up(sample.maps.caustic_on_surfaces);
       if (!final_gather_) look_up(sample.maps.on_surfaces);

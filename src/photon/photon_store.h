@@ -31,8 +31,10 @@ class PhotonStore {
   bool is_empty() const { return photons_.empty(); }
   const std::vector<Photon>& photons() const { return photons_; }
 
-  /// Irradiance over that of a surface which faces the sun. Photons of surfaces that stand more than 26° askew are left out.
-  Gathered irradiance(const Vec3& position_m, const Vec3& normal, int neighbours, const SpectralQuery& query) const;
+  /// Irradiance over that of a surface which faces the sun. Photons of surfaces that stand more than 26° askew are left out. `flat`: the piece that
+  /// the place is on, where it is a flat one: what of the circle lies beyond its borders holds no photons and does not count; a straight border
+  /// is exact, corners and bent ones nearly so.
+  Gathered irradiance(const Vec3& position_m, const Vec3& normal, int neighbours, const SpectralQuery& query, const Flat* flat = nullptr) const;
 
   /// Light that is scattered against `incoming`, per albedo and sun's irradiance [1/sr]. What of the ball lies outside the medium's bounds
   /// holds no photons and does not count; a single face is exact, edges and corners nearly so.

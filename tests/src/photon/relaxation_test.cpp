@@ -90,6 +90,22 @@ TEST(PhotonStore, EvenLightIsRightForAnyNumberOfNeighbours) {
   }
 }
 
+TEST(PhotonStore, IsRightAtBorders) {
+  const std::vector<Photon> photons = photons_on(100000);
+  const PhotonStore store(photons);
+  const Surfaces surfaces = square();
+  const SpectralQuery query(draw_wavelengths(0.5));
+  Random random(statistics::test_seed(), 6, 0);
+  statistics::Moments corrected, plain;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 place(0.01 * random.uniform_double(), 0.1 + 0.8 * random.uniform_double(), 0);
+    corrected.add(store.irradiance(place, up, 50, query, surfaces.flat({0, 0})).value[0]);
+    plain.add(store.irradiance(place, up, 50, query).value[0]);
+  }
+  EXPECT_NEAR(corrected.mean(), 1, 0.05);
+  EXPECT_LT(plain.mean(), 0.9);
+}
+
 TEST(PhotonStore, LeavesOutTheOtherSide) {
   const std::vector<Photon> photons = photons_on(1000);
   const PhotonStore store(photons);
