@@ -33,4 +33,6 @@ struct Photon {
   bool is_alone() const { return share[1] == 0 && share[2] == 0 && share[3] == 0; }
 };
 
+static_assert(sizeof(Photon) == 96);
+
 }  // namespace arcus::render
