@@ -77,6 +77,7 @@ package("^openvdb/" "^media/grid/.*[.]cpp$" "OpenVDB stays in sources of media/g
 package("^nanovdb/" "^tests/benchmarks/" "NanoVDB is there to be compared with")
 package("^OpenImageIO/" "^src/film/image_codec[.]cpp$" "OpenImageIO stays in src/film/image_codec.cpp")
 package("^embree" "^src/shape/intersector[.]cpp$" "Embree stays in src/shape/intersector.cpp")
+package("^nanoflann" "^src/photon/point_tree[.]cpp$" "nanoflann stays in src/photon/point_tree.cpp")
 package("^assimp/" "^src/shape/mesh_file[.]cpp$" "assimp stays in src/shape/mesh_file.cpp")
 package("^cairo" "^src/analysis/canvas[.]cpp$" "Cairo stays in src/analysis/canvas.cpp")
 package("^CLI/" "^tools/" "the option parser stays in tools")

@@ -2,6 +2,7 @@
 
 #include "phase/base/error.h"
 #include "src/integrator/path_tracer.h"
+#include "src/integrator/photon_map.h"
 #include "src/integrator/ray_cast.h"
 #include "src/integrator/volume_path.h"
 #include "src/integrator/whitted.h"
@@ -10,8 +11,9 @@ namespace arcus::render {
 
 std::unique_ptr<const Integrator> make_integrator(const Scene& scene, const RenderSettings& settings) {
   if (settings.integrator == "volume_path") return std::make_unique<VolumePath>(scene, settings.max_bounces);
+  if (settings.integrator == "photon_map") return std::make_unique<PhotonMap>(scene, settings);
   if (!scene.medium->is_empty())
-    throw bad_input("render.integrator", "'" + settings.integrator + "' and a medium", "'volume_path' expected: the others see surfaces alone");
+    throw bad_input("render.integrator", "'" + settings.integrator + "' and a medium", "'volume_path' or 'photon_map' expected: the others see surfaces alone");
   if (settings.integrator == "path") return std::make_unique<PathTracer>(scene, settings.max_bounces);
   if (settings.integrator == "whitted") return std::make_unique<Whitted>(scene, settings.max_bounces);
   return std::make_unique<RayCast>(scene);

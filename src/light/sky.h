@@ -24,6 +24,7 @@ class Sky {
   Sky(const SkySettings& settings, const Curve& sun_irradiance);
   /// Radiance from a direction (unit, from the scene) [W m-2 sr-1 nm-1].
   Spectrum radiance(const Vec3& direction, const Wavelengths& wavelengths) const;
+  bool is_dark() const { return radiance_ == 0; }
 
  private:
   float radiance_;

@@ -54,7 +54,10 @@ class Reporter {
 RunResult render(const Scene& scene, const RenderSettings& settings, const RunOptions& options, Film& film) {
   const auto begin = Clock::now();
   const auto seconds_since_begin = [begin] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
-  const std::unique_ptr<const Integrator> integrator = make_integrator(scene, settings);
+  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  options.threads > 0 ? static_cast<std::size_t>(options.threads) : std::max(1u, std::thread::hardware_concurrency()));
+  const std::unique_ptr<const Integrator> integrator = arena.execute([&] { return make_integrator(scene, settings); });
   const auto seed = static_cast<std::uint64_t>(settings.seed);
   const PixelBox area = film.box();
   const int blocks_x = (area.width() + block_size - 1) / block_size;
@@ -102,10 +105,6 @@ RunResult render(const Scene& scene, const RenderSettings& settings, const RunOp
   std::mutex work_mutex;
   {
     Reporter reporter(options.report ? std::function<void()>([&] { options.report(progress()); }) : nullptr);
-    tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                    options.threads > 0 ? static_cast<std::size_t>(options.threads)
-                                                        : std::max(1u, std::thread::hardware_concurrency()));
     long long done = 0;
     while (done < settings.samples_per_pixel && !is_stopped) {
       const long long pass = std::min({std::max(1LL, done), samples_per_pass, settings.samples_per_pixel - done});

@@ -7,15 +7,23 @@
 namespace arcus::render {
 
 void list_keys(Keys& keys, RenderSettings& render) {
-  keys.choice("integrator", render.integrator, {"volume_path", "ray_cast", "whitted", "path"},
-              "how light is followed. volume_path: paths through media and surfaces; path: surfaces alone; whitted: a tree of reflected and "
-              "transmitted rays; ray_cast: the first surface without shadows");
+  keys.choice("integrator", render.integrator, {"volume_path", "ray_cast", "whitted", "path", "photon_map"},
+              "how light is followed. volume_path: paths through media and surfaces; path: surfaces alone; photon_map: from the sun and from the eye, "
+              "for caustics; whitted: a tree of reflected and transmitted rays; ray_cast: the first surface without shadows");
   keys.choice("intersector", render.intersector, {"hierarchy", "exhaustive"},
               "how the first surface is found; exhaustive: by asking every one, for measurement alone");
   keys.integer("samples_per_pixel", render.samples_per_pixel, between(1, 4294967295.0), "paths a pixel");
   keys.integer("max_bounces", render.max_bounces, between(0, 1e9),
                "scatterings and reflections a path may have; 0: only what is seen directly");
   keys.integer("seed", render.seed, between(0, 9e15), "another seed, another noise");
+  keys.integer("photons", render.photons, between(1, 1e9),
+               "photon_map: sent in a pass towards mirrors and clear bodies, and a quarter as many over the whole scene; all of them without such bodies");
+  keys.integer("neighbours", render.neighbours, between(1, 1000),
+               "photon_map: photons around a place that its light is estimated from; 50 to 200, after relaxation 8 to 12");
+  keys.integer("iterations", render.iterations, between(0, 1000), "photon_map: of photon relaxation, at most; 0: none");
+  keys.integer("passes", render.passes, between(1, 10000),
+               "photon_map: maps that are averaged, later ones with fewer neighbours: bias and noise fall together");
+  keys.flag("final_gather", render.final_gather, "photon_map: light from matte to matte and within media is looked up one bounce away");
 }
 
 void list_keys(Keys& keys, MediumSettings& medium) {

@@ -18,11 +18,17 @@ namespace arcus::render {
 
 /// How a picture is computed.
 struct RenderSettings {
-  std::string integrator = "volume_path";  ///< volume_path | ray_cast | whitted | path
+  std::string integrator = "volume_path";  ///< volume_path | ray_cast | whitted | path | photon_map
   std::string intersector = "hierarchy";   ///< hierarchy | exhaustive
   long long samples_per_pixel = 64;
   long long max_bounces = 128;  ///< scatterings and reflections a path may have; 0: only what is seen directly
   long long seed = 1;
+  // Of photon_map:
+  long long photons = 1000000;  ///< sent in a pass towards mirrors and clear bodies, if there are any, and a quarter as many over the whole scene
+  long long neighbours = 50;    ///< photons that a density is estimated from
+  long long iterations = 0;     ///< of relaxation, at most; 0: none
+  long long passes = 1;         ///< maps that are averaged, the later ones with fewer neighbours
+  bool final_gather = true;     ///< light from matte to matte is looked up one bounce away
 };
 void list_keys(Keys& keys, RenderSettings& render);
 

@@ -36,6 +36,7 @@ struct Sphere {
 struct Flat {
   Vec3 centre_m, edge_u_m, edge_v_m;
   bool is_disc = false;
+  double hole = 0;  ///< of a disc: radius of a hole in its middle over its own
 };
 
 struct Triangle {
@@ -77,7 +78,7 @@ inline bool meet(const media::Ray& ray, const Flat& flat, Meeting& meeting) {
   const Vec3 p = ray.at(t) - flat.centre_m;
   const double scale = 1 / squared_length(normal);
   const double u = dot(cross(p, flat.edge_v_m), normal) * scale, v = dot(cross(flat.edge_u_m, p), normal) * scale;
-  if (flat.is_disc ? u * u + v * v > 1 : std::fabs(u) > 1 || std::fabs(v) > 1) return false;
+  if (flat.is_disc ? u * u + v * v > 1 || u * u + v * v < flat.hole * flat.hole : std::fabs(u) > 1 || std::fabs(v) > 1) return false;
   meeting = {t, slope > 0};
   return true;
 }

@@ -43,6 +43,9 @@ void list_keys(Keys& keys, ShapeSettings& shape) {
   if (keys.only_if(is("disc"), "disc")) {
     keys.vector3("normal", shape.normal, "across the disc, of any length");
     if (!keys.documents() && !(squared_length(shape.normal) > 0)) keys.refuse("normal", "[0, 0, 0]", "must have a length");
+    keys.number("inner_radius_m", shape.inner_radius_m, at_least(0), "of a round hole in its middle, less than radius_m");
+    if (!keys.documents() && !(shape.inner_radius_m < shape.radius_m))
+      keys.refuse("inner_radius_m", number_text(shape.inner_radius_m), "must be less than radius_m = " + number_text(shape.radius_m));
   }
   if (keys.only_if(is("mesh"), "mesh")) {
     keys.text("file", shape.file, "PLY or OBJ, relative to the scene file, in metres");
@@ -80,7 +83,7 @@ PieceGroup pieces_of(const ShapeSettings& shape, const std::string& folder, cons
     group.flats = {{shape.centre_m, shape.edge_u_m * 0.5, shape.edge_v_m * 0.5, false}};
   } else if (shape.type == "disc") {
     const Frame frame = frame_around(normalize(shape.normal));
-    group.flats = {{shape.centre_m, frame.side * shape.radius_m, frame.other * shape.radius_m, true}};
+    group.flats = {{shape.centre_m, frame.side * shape.radius_m, frame.other * shape.radius_m, true, shape.inner_radius_m / shape.radius_m}};
   } else if (shape.type == "gasket") {
     group = gasket(shape.centre_m, shape.edge_m, static_cast<int>(shape.depth));
   } else {

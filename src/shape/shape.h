@@ -15,6 +15,7 @@ struct ShapeSettings {
   double radius_m = 1;             ///< sphere, disc
   Vec3 edge_u_m{2, 0, 0}, edge_v_m{0, 2, 0};  ///< rectangle: its sides
   Vec3 normal{0, 0, 1};            ///< disc: of any length
+  double inner_radius_m = 0;       ///< disc: of a hole in its middle
   std::string file;                ///< mesh: PLY or OBJ, relative to the scene file
   double scale = 1;                ///< mesh: applied first
   Vec3 rotate_deg{0, 0, 0};        ///< mesh: about x, then y, then z

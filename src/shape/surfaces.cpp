@@ -41,6 +41,13 @@ Surfaces::Surfaces(SurfaceParts parts, bool is_exhaustive)
   if (has_pieces_) intersector_ = is_exhaustive ? make_exhaustive(*groups_) : make_hierarchy(*groups_);
 }
 
+std::vector<PieceId> Surfaces::smooth_planes() const {
+  std::vector<PieceId> result;
+  for (std::uint32_t i = 0; i < planes_.size(); ++i)
+    if (!(*materials_)[planes_[i].material].matte()) result.push_back({plane_group, i});
+  return result;
+}
+
 std::optional<Hit> Surfaces::nearest_hit(const media::Ray& ray, const Departure& departure) const {
   std::optional<Hit> nearest;
   media::Ray rest = ray;

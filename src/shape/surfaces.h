@@ -64,6 +64,14 @@ class Surfaces {
   bool is_blocked(const media::Ray& ray, const Departure& departure = {}) const;
   /// Around all but the planes.
   const media::Box& bounds_m() const { return bounds_m_; }
+  /// The flat piece of a hit, where it is on one.
+  const Flat* flat(const PieceId& piece) const {
+    const bool is_flat = piece.group < groups_->size() && piece.piece < (*groups_)[piece.group].flats.size();
+    return is_flat ? &(*groups_)[piece.group].flats[piece.piece] : nullptr;
+  }
+  bool has_planes() const { return !planes_.empty(); }
+  /// Those planes that are no matte ones, as hits name them.
+  std::vector<PieceId> smooth_planes() const;
   const std::vector<PieceGroup>& groups() const { return *groups_; }
   const std::vector<Material>& materials() const { return *materials_; }
 

@@ -21,7 +21,7 @@ ratio() { awk -v a="$1" -v b="$2" 'BEGIN { printf a / b < 10 ? "%.1f" : "%.0f", 
 scene() {  # scene INTEGRATOR [DROPS]: one path a pixel
   printf '[render]\nintegrator = "%s"\nsamples_per_pixel = 1\nmax_bounces = 50\n' "$1"
   printf '[camera]\nposition_m = [0, 0, 1.7]\nelevation_deg = 12\nfov_deg = 80\nresolution = [400, 400]\n'
-  printf '[sun]\nazimuth_deg = 180\nelevation_deg = 20\nangular_radius_deg = 3\n[[medium]]\nname = "rain"\nvdb = "rain.vdb"\n'
+  printf '[sun]\nazimuth_deg = 180\nelevation_deg = 20\n[[medium]]\nname = "rain"\nvdb = "rain.vdb"\n'
   [ $# -lt 2 ] || printf '[[droplets]]\nmedium = "rain"\ncount = %s\n' "$2"
 }
 "$arcus" author box -o rain.vdb --name rain --extinction-per-m 0.005 --centre-m 0,25,10 --size-m 60,10,40 --voxels 60,10,40 --size-um 500 \

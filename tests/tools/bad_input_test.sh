@@ -76,6 +76,35 @@ plane_ply() { printf 'ply\nformat %s 1.0\nelement vertex 4\nproperty float x\npr
 expect 2 "cut.ply: 0 of 1 entries of 'face'.*cut off" "$ARCUS" render s.toml
 { plane_ply binary_little_endian; head -c 40 /dev/zero; } >cut.ply
 expect 2 "cut.ply: 3 of 4 entries of 'vertex'.*cut off" timeout 20 "$ARCUS" render s.toml
+# Photon maps.
+photons() { printf '[render]\nintegrator = "photon_map"\n%s\n[camera]\nresolution = [4, 4]\n%s\n' "$1" "$2" >p.toml; }
+ball='[[surface]]
+shape = { type = "sphere" }
+material = { albedo = 0.5 }'
+photons 'photons = 0' "$ball"
+expect 2 'p.toml:3.*photons: 0.*between 1' "$ARCUS" render p.toml
+photons 'neighbours = 2000' "$ball"
+expect 2 'p.toml:3.*neighbours: 2000.*between 1 and 1000' "$ARCUS" render p.toml
+photons 'iterations = -1' "$ball"
+expect 2 'p.toml:3.*iterations: -1' "$ARCUS" render p.toml
+photons 'passes = 0' "$ball"
+expect 2 'p.toml:3.*passes: 0' "$ARCUS" render p.toml
+photons '' '[sun]
+irradiance_scale = 0
+[[surface]]
+shape = { type = "sphere" }'
+expect 2 "'photon_map' and a sun without light" "$ARCUS" render p.toml
+photons '' '[[surface]]
+shape = { type = "plane" }'
+expect 2 "'photon_map' and planes alone" "$ARCUS" render p.toml
+photons 'photons = 100' '[[surface]]
+shape = { type = "sphere" }
+material = { type = "mirror" }'
+expect 2 'no photon that has landed, of 100 sent' "$ARCUS" render p.toml
+photons 'photons = 1000' "$ball"
+must "$ARCUS" render p.toml --quiet
+surface 'type = "disc", radius_m = 1, inner_radius_m = 1' 'albedo = 0.5'
+expect 2 's.toml:4.*inner_radius_m: 1 found; must be less than radius_m = 1' "$ARCUS" render s.toml
 drops() { printf '[render]\nintegrator = "path"\n[camera]\nresolution = [8, 8]\n[[droplets]]\n%s\n' "$1" >d.toml; }
 drops 'box_m = [[0, 0, 0], [1, 1]]'
 expect 2 'd.toml:6.*box_m.*two corners' "$ARCUS" render d.toml
@@ -101,7 +130,7 @@ absent r.html
 drops 'count = 4000000000'
 expect 1 'droplets\[0\]: 4e\+09 drops need about .* enough for' "$ARCUS" render d.toml
 scene d.toml '[render]' 'integrator = "path"'
-expect 2 "render.integrator: 'path' and a medium.*'volume_path' expected" "$ARCUS" render d.toml -o d.exr
+expect 2 "render.integrator: 'path' and a medium.*'volume_path' or 'photon_map' expected" "$ARCUS" render d.toml -o d.exr
 absent d.exr
 
 # Recipes.

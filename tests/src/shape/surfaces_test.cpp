@@ -105,6 +105,26 @@ TEST(Surfaces, ASphereIsEnteredAndLeftWhereGeometrySays) {
   EXPECT_FALSE(surfaces.nearest_hit({in->position_m, Vec3(-1, 0, 0)}, in->departure(false)));
 }
 
+TEST(Surfaces, ADiscMayHaveAHole) {
+  ShapeSettings disc;
+  disc.type = "disc";
+  disc.normal = Vec3(1, 2, 3);
+  disc.radius_m = 2;
+  disc.inner_radius_m = 0.5;
+  SurfaceParts parts, same;
+  parts.add(pieces_of(disc, "", "test"), Material(Matte(0.5)));
+  same.add(pieces_of(disc, "", "test"), Material(Matte(0.5)));
+  const Surfaces surfaces(std::move(parts)), exhaustive(std::move(same), true);
+  const Frame frame = frame_around(normalize(disc.normal));
+  for (const double out_m : {0.0, 0.499, 0.501, 1.999, 2.001})
+    for (const double turn : {0.3, 2.0, 4.0}) {
+      const media::Ray ray{frame.to_world(out_m * std::cos(turn), out_m * std::sin(turn), 5), -frame.along};
+      const bool meets = out_m > 0.5 && out_m < 2;
+      EXPECT_EQ(surfaces.is_blocked(ray), meets) << out_m;
+      EXPECT_EQ(exhaustive.nearest_hit(ray).has_value(), meets) << out_m;
+    }
+}
+
 TEST(Gasket, TouchesAndCounts) {
   const PieceGroup group = gasket(Vec3(0), 2, 4);
   ASSERT_EQ(group.spheres.size(), 256u);
