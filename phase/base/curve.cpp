@@ -92,10 +92,30 @@ Curve::Curve(std::vector<double> x, std::vector<double> y, std::string_view wher
                       "ascending values in the first column expected");
 }
 
+namespace {
+
+/// Index of the first of the ascending numbers that is above x, which lies between the ends. Most curves have nearly equal steps, so that a
+/// guess is at most a few steps aside.
+std::size_t first_above(const std::vector<double>& ascending, double x) {
+  const double steps = static_cast<double>(ascending.size() - 1) / (ascending.back() - ascending.front());
+  auto i = std::min(static_cast<std::size_t>((x - ascending.front()) * steps) + 1, ascending.size() - 1);
+  for (int tries = 0; tries < 8; ++tries) {
+    if (ascending[i] <= x)
+      ++i;
+    else if (ascending[i - 1] > x)
+      --i;
+    else
+      return i;
+  }
+  return static_cast<std::size_t>(std::upper_bound(ascending.begin(), ascending.end(), x) - ascending.begin());
+}
+
+}  // namespace
+
 double Curve::operator()(double x) const {
   if (!(x > x_.front())) return y_.front();
   if (x >= x_.back()) return y_.back();
-  const auto i = static_cast<std::size_t>(std::upper_bound(x_.begin(), x_.end(), x) - x_.begin());
+  const std::size_t i = first_above(x_, x);
   const double t = (x - x_[i - 1]) / (x_[i] - x_[i - 1]);
   return y_[i - 1] + t * (y_[i] - y_[i - 1]);
 }

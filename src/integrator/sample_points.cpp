@@ -1,5 +1,7 @@
 #include "src/integrator/sample_points.h"
 
+#include <bit>
+
 namespace arcus::render {
 namespace {
 
@@ -36,7 +38,21 @@ constexpr Directions sobol_directions() {
   return v;
 }
 
-constexpr Directions directions = sobol_directions();
+/// What each value of each byte of an index brings: a number is four look-ups.
+using ByteTables = std::array<std::array<std::array<std::uint32_t, 256>, 4>, dimensions>;
+constexpr ByteTables byte_tables() {
+  constexpr Directions directions = sobol_directions();
+  ByteTables tables{};
+  for (std::size_t d = 0; d < dimensions; ++d)
+    for (std::size_t byte = 0; byte < 4; ++byte)
+      for (std::size_t value = 1; value < 256; ++value) {
+        // The value without its lowest bit, and that bit.
+        const auto lowest = static_cast<std::size_t>(std::countr_zero(value));
+        tables[d][byte][value] = tables[d][byte][value & (value - 1)] ^ directions[d][8 * byte + lowest];
+      }
+  return tables;
+}
+constexpr ByteTables tables = byte_tables();
 
 std::uint32_t reversed(std::uint32_t x) {
   x = __builtin_bswap32(x);
@@ -72,9 +88,8 @@ FirstNumbers first_numbers(std::uint64_t seed, std::uint64_t pixel, std::uint32_
   std::array<double, dimensions> u{};
   for (std::size_t d = 0; d < dimensions; ++d) {
     hash = mixed(hash);
-    std::uint32_t x = 0;
-    for (std::uint32_t bits = index, k = 0; bits != 0; bits >>= 1, ++k)
-      if (bits & 1u) x ^= directions[d][k];
+    const auto& of = tables[d];
+    std::uint32_t x = of[0][index & 255u] ^ of[1][index >> 8 & 255u] ^ of[2][index >> 16 & 255u] ^ of[3][index >> 24];
     x = reversed(scrambled_reversed(reversed(x), static_cast<std::uint32_t>(hash)));
     u[d] = x * 0x1p-32;
   }
