@@ -28,7 +28,6 @@ void run(const MergeCommand& command) {
   const std::string png = std::filesystem::path(exr).replace_extension(".png").string();
   check_writable(command.output);  // before the work, not after it
   if (!command.no_png) check_writable(png);
-  render::load_image_files();
   const render::Merge merge = render::merge_tiles(command.folder, command.options);
   if (merge.refused > 0)
     std::cerr << "arcus: warning: " << merge.refused << " samples were not finite and are left out; `arcus render --crop` around a black pixel names them\n";

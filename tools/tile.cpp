@@ -51,6 +51,7 @@ void prepare_folder(const TileCommand& command, const render::TileJob& job, long
   std::error_code error;
   std::filesystem::create_directories(command.folder, error);
   if (!std::filesystem::is_directory(command.folder)) throw cannot("cannot make the folder " + command.folder, error.message());
+  remove_abandoned_in(command.folder);
   check_writable(render::tile_path(command.folder, job.tiles, first_tile));  // before the work, not after it
   const auto record = render::read_record(command.folder);
   if (!record || render::id_of(*record) != render::id_of(job)) render::write_record(command.folder, job);

@@ -16,18 +16,18 @@
 namespace arcus {
 namespace {
 
-/// Temporary files of this machine for `path` begin so; the process id follows.
-std::string temporary_beginning(const std::filesystem::path& path) {
+/// In the names of this machine's temporary files, between the stem and the process id.
+std::string temporary_mark() {
   char host[65] = "";
   ::gethostname(host, sizeof host - 1);
-  return "." + path.stem().string() + ".part" + host + "-";
+  return std::string(".part") + host + "-";
 }
 
 std::string temporary_name(const std::string& path) {
   static std::atomic<unsigned> number{0};
   const std::filesystem::path target(path);
-  const std::string name = temporary_beginning(target) + std::to_string(::getpid()) + "-" + std::to_string(number++) +
-                           target.extension().string();
+  const std::string name = "." + target.stem().string() + temporary_mark() + std::to_string(::getpid()) + "-" +
+                           std::to_string(number++) + target.extension().string();
   return (target.parent_path() / name).string();
 }
 
@@ -78,16 +78,15 @@ void write_whole_file(const std::string& path, std::string_view content) {
   whole.commit();
 }
 
-void remove_abandoned(const std::string& path) {
-  const std::filesystem::path target(path);
-  const std::string beginning = temporary_beginning(target);
-  const std::filesystem::path folder = target.parent_path();
+void remove_abandoned_in(const std::string& folder) {
+  const std::string mark = temporary_mark();
   std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(folder.empty() ? "." : folder, error)) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
     const std::string name = entry.path().filename().string();
-    if (!name.starts_with(beginning)) continue;
+    const std::size_t at = name.rfind(mark);
+    if (!name.starts_with(".") || at == std::string::npos) continue;
     pid_t process = 0;
-    const auto [rest, fault] = std::from_chars(name.data() + beginning.size(), name.data() + name.size(), process);
+    const auto [rest, fault] = std::from_chars(name.data() + at + mark.size(), name.data() + name.size(), process);
     if (fault == std::errc() && process > 0 && *rest == '-' && ::kill(process, 0) != 0 && errno == ESRCH)
       ::unlink(entry.path().c_str());
   }

@@ -30,8 +30,9 @@ class WholeFile {
 /// Writes a text or bytes as a whole file.
 void write_whole_file(const std::string& path, std::string_view content);
 
-/// Removes the temporary files for `path` of processes of this machine that are no more: killed, they could not do it themselves.
-void remove_abandoned(const std::string& path);
+/// Removes the temporary files in a folder that belong to processes of this machine that are no more: killed, they could not do it
+/// themselves.
+void remove_abandoned_in(const std::string& folder);
 
 /// Throws cannot() unless a file could be made at `path`; leaves nothing.
 void check_writable(const std::string& path);

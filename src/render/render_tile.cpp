@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "phase/base/error.h"
-#include "phase/base/whole_file.h"
 #include "src/render/picture.h"
 #include "src/render/tile.h"
 #include "src/render/tile_folder.h"
@@ -30,8 +29,6 @@ RunResult render_tile(const SceneSettings& settings, const Scene& scene, const T
                       RunOptions options, const std::function<void(std::string_view)>& say) {
   using Clock = std::chrono::steady_clock;
   const std::string path = tile_path(folder, job.tiles, tile), checkpoint = checkpoint_path(folder, job.tiles, tile);
-  remove_abandoned(path);
-  remove_abandoned(checkpoint);
   Film film(job.width_px, job.height_px, tile_box(job.width_px, job.height_px, job.tiles, tile), settings.film, to_rgb_of(settings, job.sun));
   const double seconds_before = resume(checkpoint, job, film, say);
   const auto begin = Clock::now();
