@@ -6,10 +6,12 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "phase/base/error.h"
 #include "phase/base/whole_file.h"
+#include "phase/settings/toml_text.h"
 #include "phase/species/species_cache.h"
 #include "src/render/render_tile.h"
 #include "src/render/tile.h"
@@ -57,6 +59,17 @@ void prepare_folder(const TileCommand& command, const render::TileJob& job, long
   if (!record || render::id_of(*record) != render::id_of(job)) render::write_record(command.folder, job);
 }
 
+/// When the scene's files were last written, and how long they are.
+std::vector<std::pair<std::filesystem::file_time_type, std::uintmax_t>> stamps_of(const render::SceneSettings& settings, const render::TileJob& job) {
+  std::vector<std::pair<std::filesystem::file_time_type, std::uintmax_t>> stamps;
+  std::error_code none;  // a recipe within the scene is no file
+  for (const render::SceneInput& input : job.scene.inputs) {
+    const std::string path = path_from(settings.folder, input.name);
+    stamps.emplace_back(std::filesystem::last_write_time(path, none), std::filesystem::file_size(path, none));
+  }
+  return stamps;
+}
+
 void report_done(const TileCommand& command, const render::TileJob& job, long long tile, const render::RunResult& run) {
   if (command.quiet) return;
   char line[200];
@@ -70,6 +83,7 @@ void run(const TileCommand& command) {
   const render::TileList list = render::read_tile_list(command.tiles, "--tiles");
   const render::SceneSettings settings = render::read_scene(command.scene, command.overrides);
   const render::TileJob job = render::tile_job(settings, list.count);
+  const auto stamps = stamps_of(settings, job);
   const std::vector<long long> tiles = to_render(command, job, list.tiles);
   if (!command.quiet && tiles.size() < list.tiles.size())
     std::cerr << list.tiles.size() - tiles.size() << " of " << list.tiles.size() << " tiles are there\n";
@@ -83,6 +97,8 @@ void run(const TileCommand& command) {
   build.cache_folder = command.cache_folder.empty() ? phase::default_cache_folder() : command.cache_folder;
   build.log = say;
   const render::Scene scene = render::build_scene(settings, build);
+  if (stamps_of(settings, job) != stamps)
+    throw Error(Fault::mismatch, command.scene + ": a file that it names was changed while it was read. Nothing was rendered");
 
   watch_for_interruption();
   render::RunOptions options;
