@@ -51,6 +51,9 @@ static int run(int argc, char** argv) {
   program.require_subcommand(1);
   program.get_formatter()->column_width(36);
   add_render(program);
+  add_tile(program);
+  add_merge(program);
+  add_status(program);
   add_author(program);
   add_phase(program);
   add_info(program);

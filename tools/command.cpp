@@ -1,5 +1,7 @@
 #include "tools/command.h"
 
+#include <unistd.h>
+
 #include <csignal>
 
 namespace arcus::tools {
@@ -13,6 +15,8 @@ extern "C" void on_signal(int signal) {
   std::signal(signal, SIG_DFL);  // the second one ends the program at once
 }
 
+extern "C" void on_early_signal(int) { ::_exit(exit_try_again); }
+
 }  // namespace
 
 const std::atomic<int>& stop_request() { return requested_stop; }
@@ -21,5 +25,7 @@ void watch_for_interruption() {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
 }
+
+void leave_on_termination() { std::signal(SIGTERM, on_early_signal); }
 
 }  // namespace arcus::tools

@@ -1,10 +1,12 @@
 #include "phase/base/whole_file.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -14,12 +16,28 @@
 namespace arcus {
 namespace {
 
+/// In the names of this machine's temporary files, between the stem and the process id.
+std::string temporary_mark() {
+  char host[65] = "";
+  ::gethostname(host, sizeof host - 1);
+  return std::string(".part") + host + "-";
+}
+
 std::string temporary_name(const std::string& path) {
   static std::atomic<unsigned> number{0};
   const std::filesystem::path target(path);
-  std::string name = "." + target.stem().string() + ".part" + std::to_string(::getpid()) + "-" +
-                     std::to_string(number++) + target.extension().string();
+  const std::string name = "." + target.stem().string() + temporary_mark() + std::to_string(::getpid()) + "-" +
+                           std::to_string(number++) + target.extension().string();
   return (target.parent_path() / name).string();
+}
+
+/// A name outlives a failing machine only when its folder is on the disk as well. Not every file system can do it for folders.
+void flush_folder_of(const std::string& path) {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  const int file = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0) return;
+  ::fsync(file);
+  ::close(file);
 }
 
 }  // namespace
@@ -46,6 +64,7 @@ void WholeFile::commit() {
   if (std::rename(temporary_path_.c_str(), path_.c_str()) != 0)
     throw cannot("cannot write " + path_, std::strerror(errno));
   committed_ = true;
+  flush_folder_of(path_);
 }
 
 void write_whole_file(const std::string& path, std::string_view content) {
@@ -57,6 +76,20 @@ void write_whole_file(const std::string& path, std::string_view content) {
     if (!file) throw cannot("cannot write " + path, std::strerror(errno));
   }
   whole.commit();
+}
+
+void remove_abandoned_in(const std::string& folder) {
+  const std::string mark = temporary_mark();
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    const std::size_t at = name.rfind(mark);
+    if (!name.starts_with(".") || at == std::string::npos) continue;
+    pid_t process = 0;
+    const auto [rest, fault] = std::from_chars(name.data() + at + mark.size(), name.data() + name.size(), process);
+    if (fault == std::errc() && process > 0 && *rest == '-' && ::kill(process, 0) != 0 && errno == ESRCH)
+      ::unlink(entry.path().c_str());
+  }
 }
 
 void check_writable(const std::string& path) { WholeFile whole(path); }

@@ -16,9 +16,10 @@ class WholeFile {
   /// Removes what was written and not committed.
   ~WholeFile();
 
-  /// Where to write: same folder, same ending, name with process id, so that two processes do not meet.
+  /// Where to write: same folder, same ending, name with host and process id, so that two processes do not
+  /// meet, on one machine or on several.
   const std::string& temporary_path() const { return temporary_path_; }
-  /// Flushes the temporary file to the disk and gives it its name. Throws cannot() on failure.
+  /// Flushes the temporary file to the disk, gives it its name and flushes that. Throws cannot() on failure.
   void commit();
 
  private:
@@ -28,6 +29,10 @@ class WholeFile {
 
 /// Writes a text or bytes as a whole file.
 void write_whole_file(const std::string& path, std::string_view content);
+
+/// Removes the temporary files in a folder that belong to processes of this machine that are no more: killed, they could not do it
+/// themselves.
+void remove_abandoned_in(const std::string& folder);
 
 /// Throws cannot() unless a file could be made at `path`; leaves nothing.
 void check_writable(const std::string& path);

@@ -11,18 +11,36 @@
 
 namespace arcus::render {
 
-Picture render_picture(const SceneSettings& settings, const Scene& scene, std::optional<PixelBox> crop,
-                       RunOptions options, const std::string& checkpoint_file) {
-  const CameraSettings& camera = settings.camera;
-  const PixelBox box = crop.value_or(PixelBox{0, 0, camera.width_px, camera.height_px});
-  const Xyz sun = xyz_of([&](double nm) { return scene.sun.irradiance_curve()(nm); });
-  const ToRgb to_rgb = to_rgb_from_white(white_of(settings.film.white, sun));
-  Film film(camera.width_px, camera.height_px, box, settings.film, to_rgb);
+Xyz sun_colour(const Curve& sun_irradiance) {
+  return xyz_of([&](double nm) { return sun_irradiance(nm); });
+}
 
+ToRgb to_rgb_of(const SceneSettings& settings, const Xyz& sun) { return to_rgb_from_white(white_of(settings.film.white, sun)); }
+
+ToneSettings tone_of(const SceneSettings& settings, const Xyz& sun) {
+  // Under no sun a matte surface under the sky of radiance 1 is the reference.
+  return {settings.film.exposure_ev, sun.y > 0 ? sun.y / pi : 1};
+}
+
+void describe(Image& image, const SceneSettings& settings, double samples_per_pixel, double render_seconds) {
   MakingOf making;
   making.version = version;
   making.scene_text = text_of(settings);
   making.scene_hash = content_hash(making.scene_text);
+  making.seed = static_cast<std::uint64_t>(settings.render.seed);
+  making.samples_per_pixel = samples_per_pixel;
+  making.render_seconds = render_seconds;
+  write_making_of(image.metadata, making);
+  write_camera(image.metadata, settings.camera);
+  write_sun(image.metadata, {settings.sun.azimuth_deg, settings.sun.elevation_deg, settings.sun.angular_radius_deg});
+}
+
+Picture render_picture(const SceneSettings& settings, const Scene& scene, std::optional<PixelBox> crop,
+                       RunOptions options, const std::string& checkpoint_file) {
+  const CameraSettings& camera = settings.camera;
+  const PixelBox box = crop.value_or(PixelBox{0, 0, camera.width_px, camera.height_px});
+  const Xyz sun = sun_colour(scene.sun.irradiance_curve());
+  Film film(camera.width_px, camera.height_px, box, settings.film, to_rgb_of(settings, sun));
 
   if (!checkpoint_file.empty()) {
     const std::string fingerprint = scene_fingerprint(settings);
@@ -34,16 +52,8 @@ Picture render_picture(const SceneSettings& settings, const Scene& scene, std::o
   if (!checkpoint_file.empty() && picture.run.is_complete) std::filesystem::remove(checkpoint_file);
   picture.image = film.to_image();
   picture.refused = film.refused();
-  // Under no sun a matte surface under the sky of radiance 1 is the reference.
-  picture.tone = {settings.film.exposure_ev, sun.y > 0 ? sun.y / pi : 1};
-
-  making.seed = static_cast<std::uint64_t>(settings.render.seed);
-  making.samples_per_pixel = picture.run.progress.samples_done / static_cast<double>(box.pixels());
-  making.render_seconds = picture.run.progress.seconds;
-  write_making_of(picture.image.metadata, making);
-  write_camera(picture.image.metadata, camera);
-  write_sun(picture.image.metadata,
-            {settings.sun.azimuth_deg, settings.sun.elevation_deg, settings.sun.angular_radius_deg});
+  picture.tone = tone_of(settings, sun);
+  describe(picture.image, settings, picture.run.progress.samples_done / static_cast<double>(box.pixels()), picture.run.progress.seconds);
   return picture;
 }
 

@@ -12,6 +12,18 @@
 
 namespace arcus::render {
 
+/// The sun's light as a colour, by which the film's `white = "auto"` and the brightness of the PNG go.
+Xyz sun_colour(const Curve& sun_irradiance);
+
+/// How a film of this scene turns its sums into RGB.
+ToRgb to_rgb_of(const SceneSettings& settings, const Xyz& sun);
+
+/// How the PNG shows it.
+ToneSettings tone_of(const SceneSettings& settings, const Xyz& sun);
+
+/// Writes into the picture's metadata what it shows and how it was made. samples_per_pixel: those that were made, on average.
+void describe(Image& image, const SceneSettings& settings, double samples_per_pixel, double render_seconds);
+
 struct Picture {
   Image image;          ///< channels as the settings ask for, and metadata
   ToneSettings tone;    ///< for the PNG: exposure 0 shows a white matte surface that faces the sun as a bright white

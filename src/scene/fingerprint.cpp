@@ -1,43 +1,76 @@
 #include "src/scene/fingerprint.h"
 
+#include <utility>
+
 #include "phase/base/content_hash.h"
 #include "phase/settings/toml_text.h"
 
 namespace arcus::render {
 namespace {
 
-/// The recipe's own hash covers the files that it names.
-std::string recipe_fingerprint(const MediumSettings& medium, const std::string& folder) {
-  if (!medium.phase_file.empty()) return phase::recipe_id(phase::recipe_from_file(path_from(folder, medium.phase_file)));
-  if (!medium.has_phase) return "";
-  phase::Recipe recipe = medium.phase;
-  phase::resolve_files(recipe, folder);
-  return phase::recipe_id(recipe);
-}
+/// Replaces names by the hashes of what they name.
+class Naming {
+ public:
+  explicit Naming(std::string folder) : folder_(std::move(folder)) {}
 
-/// Of the file with a body's index, where there is one.
-std::string index_fingerprint(const MaterialSettings& material, const std::string& folder) {
-  const bool is_clear = material.type == "transparent" || material.type == "dielectric";
-  if (!is_clear || material.index.empty() || material.index == "water" || material.index == "ice") return "";
-  return file_hash(path_from(folder, material.index));
-}
+  void file(std::string& name) {
+    name = noted(name, [&] { return file_hash(path_from(folder_, name)); });
+  }
+  /// The recipe's own hash covers the files that it names.
+  void recipe(MediumSettings& medium) {
+    if (!medium.phase_file.empty()) {
+      medium.phase_file = noted(medium.phase_file, [&] { return phase::recipe_id(phase::recipe_from_file(path_from(folder_, medium.phase_file))); });
+    } else if (medium.has_phase) {
+      phase::Recipe recipe = medium.phase;
+      phase::resolve_files(recipe, folder_);
+      const std::string hash = phase::recipe_id(recipe);
+      inputs_.push_back({"phase of medium '" + medium.name + "'", hash});
+    }
+  }
+  /// The file with a body's index, where there is one.
+  void index(MaterialSettings& material) {
+    const bool is_clear = material.type == "transparent" || material.type == "dielectric";
+    if (is_clear && !material.index.empty() && material.index != "water" && material.index != "ice") file(material.index);
+  }
+  std::vector<SceneInput> inputs() && { return std::move(inputs_); }
+
+ private:
+  /// A large file that several media share is read once.
+  template <class Hash>
+  std::string noted(const std::string& name, const Hash& hash) {
+    for (const SceneInput& input : inputs_)
+      if (input.name == name) return input.hash;
+    inputs_.push_back({name, hash()});
+    return inputs_.back().hash;
+  }
+
+  std::string folder_;
+  std::vector<SceneInput> inputs_;
+};
 
 }  // namespace
 
-std::string scene_fingerprint(const SceneSettings& settings) {
-  std::string all = text_of(settings);
-  const std::string& sun = settings.sun.spectrum;
-  if (sun != "solar" && sun != "equal_energy") all += file_hash(path_from(settings.folder, sun));
-  for (const MediumSettings& medium : settings.media) {
-    all += file_hash(path_from(settings.folder, medium.vdb));
-    all += recipe_fingerprint(medium, settings.folder);
+SceneIdentity scene_identity(const SceneSettings& settings) {
+  SceneSettings named = settings;
+  Naming naming(settings.folder);
+  named.film.exposure_ev = 0;
+  if (named.sun.spectrum != "solar" && named.sun.spectrum != "equal_energy") naming.file(named.sun.spectrum);
+  for (MediumSettings& medium : named.media) {
+    naming.recipe(medium);
+    naming.file(medium.vdb);
   }
-  for (const SurfaceSettings& surface : settings.surfaces) {
-    if (surface.shape.type == "mesh") all += file_hash(path_from(settings.folder, surface.shape.file));
-    all += index_fingerprint(surface.material, settings.folder);
+  for (SurfaceSettings& surface : named.surfaces) {
+    if (surface.shape.type == "mesh") naming.file(surface.shape.file);
+    naming.index(surface.material);
   }
-  for (const DropletsSettings& drops : settings.droplets) all += index_fingerprint(drops.material, settings.folder);
-  return content_hash(all);
+  for (DropletsSettings& drops : named.droplets) naming.index(drops.material);
+  SceneIdentity identity{"", std::move(naming).inputs()};
+  std::string all = text_of(named);
+  for (const SceneInput& input : identity.inputs) all += input.hash;
+  identity.hash = content_hash(all);
+  return identity;
 }
+
+std::string scene_fingerprint(const SceneSettings& settings) { return scene_identity(settings).hash; }
 
 }  // namespace arcus::render
