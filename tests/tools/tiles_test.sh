@@ -89,7 +89,7 @@ must "$ARCUS" merge d -o n.exr --no-png
 check 'a repaired picture differs' are_equal n.exr whole.exr
 
 # A tile that takes a few seconds on one thread: killed, stopped, raced for.
-long='--set render.samples_per_pixel=250 --checkpoint-seconds 0.1 --threads 1'
+long='--set render.samples_per_pixel=1500 --checkpoint-seconds 0.1 --threads 1'
 start() {  # start FOLDER: a worker, and waits until it renders
   env --default-signal=INT "$ARCUS" tile s.toml --tiles 1/2 --out "$1" $long --progress json 2>"$work/.stderr" &
   worker=$!
@@ -123,7 +123,7 @@ first=$!
 check 'one of two workers on a tile failed' test $? -eq 0
 wait "$first"
 check 'the other of two workers on a tile failed' test $? -eq 0
-must "$ARCUS" render s.toml -o long.exr --no-png --set render.samples_per_pixel=250
+must "$ARCUS" render s.toml -o long.exr --no-png --set render.samples_per_pixel=1500
 for folder in killed stopped_TERM raced; do
   must "$ARCUS" tile s.toml --tiles 0,1/2 --out "$folder" $long --quiet
   expect 0 'long.exr' "$ARCUS" merge "$folder" -o "$folder/long.exr" --no-png
