@@ -16,7 +16,7 @@ endif()
 
 set(phase_order base settings optics particle crystal population function species)
 set(src_words film light camera material shape)                    # they do not know one another
-set(src_order scene photon integrator render analysis)
+set(src_order scene photon integrator render farm analysis)
 
 function(allow folder)
   set(allowed_${folder} ${folder} ${ARGN} PARENT_SCOPE)
@@ -71,7 +71,7 @@ package("^netcdf" "^phase/(base/netcdf_file|species/netcdf_table)[.]cpp$"
   "NetCDF stays in phase/base/netcdf_file.cpp and phase/species/netcdf_table.cpp")
 package("^xxh" "^phase/(base/content_hash|species/[^/]*)[.]cpp$"
   "xxHash stays in phase/base/content_hash.cpp and sources of phase/species")
-package("^nlohmann/" "^(phase/settings|src/film|src/analysis|src/render|tools)/.*[.]cpp$"
+package("^nlohmann/" "^(phase/settings|src/film|src/analysis|src/render|src/farm|tools)/.*[.]cpp$"
   "JSON in sources of phase/settings, src/film, src/render, src/analysis and tools")
 package("^openvdb/" "^media/grid/.*[.]cpp$" "OpenVDB stays in sources of media/grid")
 package("^nanovdb/" "^tests/benchmarks/" "NanoVDB is there to be compared with")

@@ -54,6 +54,7 @@ static int run(int argc, char** argv) {
   add_tile(program);
   add_merge(program);
   add_status(program);
+  add_farm(program);
   add_author(program);
   add_phase(program);
   add_info(program);

@@ -33,6 +33,7 @@ void add_render(CLI::App& program);
 void add_tile(CLI::App& program);
 void add_merge(CLI::App& program);
 void add_status(CLI::App& program);
+void add_farm(CLI::App& program);
 void add_author(CLI::App& program);
 void add_phase(CLI::App& program);
 void add_info(CLI::App& program);

@@ -1,11 +1,14 @@
 #!/usr/bin/env bash
-# Installs the Debian packages listed in packages.txt that are missing. Does nothing where all are there.
+# Installs the Debian packages listed in packages.txt that are missing, and with --tests those of packages_for_tests.txt. Does nothing
+# where all are there.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 
 fail() { echo "$(basename "$0"): $*" >&2; exit 1; }
 
-mapfile -t packages < <(sed 's/#.*//; /^[[:space:]]*$/d' "$here/packages.txt")
+lists=("$here/packages.txt")
+[ "${1:-}" != --tests ] || lists+=("$here/packages_for_tests.txt")
+mapfile -t packages < <(sed 's/#.*//; /^[[:space:]]*$/d' "${lists[@]}")
 command -v dpkg-query >/dev/null || fail "this is no Debian system; install the equivalents of: ${packages[*]}"
 missing=()
 for package in "${packages[@]}"; do

@@ -7,7 +7,7 @@ cd "$root"
 
 fail() { echo "test.sh: $*" >&2; exit 1; }
 
-bash tools/install_packages.sh || fail "the packages in tools/packages.txt could not be installed"
+bash tools/install_packages.sh --tests || fail "the packages in tools/packages.txt and packages_for_tests.txt could not be installed"
 cmake --preset release -DBUILD_TESTING=ON -DWARNINGS_AS_ERRORS="${WARNINGS_AS_ERRORS:-OFF}" ||
   fail "cmake failed; its message is above"
 cmake --build --preset release || fail "the build failed; the compiler's message is above"

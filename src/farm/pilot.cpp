@@ -1,0 +1,50 @@
+#include "src/farm/pilot.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "src/render/picture.h"
+#include "src/scene/build_scene.h"
+
+namespace arcus::farm {
+namespace {
+
+constexpr double pilot_seconds = 3, pilot_pixels = 8000;
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+}  // namespace
+
+Pilot run_pilot(const render::SceneSettings& settings, const std::string& cache_folder, const std::function<void(std::string_view)>& say) {
+  render::SceneSettings small = settings;
+  render::CameraSettings& camera = small.camera;
+  const double scale = std::min(1.0, std::sqrt(pilot_pixels / (static_cast<double>(camera.width_px) * camera.height_px)));
+  camera.width_px = std::max(1, static_cast<int>(std::lround(camera.width_px * scale)));
+  camera.height_px = std::max(1, static_cast<int>(std::lround(camera.height_px * scale)));
+  render::BuildOptions build;
+  build.cache_folder = cache_folder;
+  build.log = say;
+  Pilot pilot;
+  const auto begin = std::chrono::steady_clock::now();
+  const render::Scene scene = render::build_scene(small, build);
+  pilot.start_seconds = seconds_since(begin);
+  // Whole passes alone say what the mean over the picture is; the first one is never cut short.
+  small.render.samples_per_pixel = 1;
+  double samples = 0, seconds = 0;
+  const double threads = std::max(1u, std::thread::hardware_concurrency());
+  while (seconds < pilot_seconds) {
+    const render::Picture picture = render::render_picture(small, scene, std::nullopt, {});
+    samples += picture.run.progress.samples_done;
+    seconds += picture.run.progress.seconds;
+    ++small.render.seed;
+    if (small.render.integrator == "photon_map") break;  // its photons are sent anew each time
+  }
+  pilot.thread_seconds_a_sample = seconds * threads / samples;
+  return pilot;
+}
+
+}  // namespace arcus::farm
