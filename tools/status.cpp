@@ -12,7 +12,9 @@
 #include <memory>
 #include <utility>
 
+#include "phase/base/error.h"
 #include "phase/base/whole_file.h"
+#include "src/farm/farm_job.h"
 #include "src/film/image_file.h"
 #include "src/render/tile.h"
 #include "src/render/tile_folder.h"
@@ -113,7 +115,53 @@ render::DisplayPicture map_of(const render::TileSurvey& survey) {
   return map;
 }
 
+/// Of an animation: its frames together.
+Json facts_of(const farm::FarmJob& job, bool is_thorough) {
+  constexpr TileState states[] = {TileState::done, TileState::partial, TileState::missing, TileState::damaged, TileState::foreign};
+  constexpr const char* names[] = {"done", "partial", "missing", "damaged", "foreign"};
+  long long counts[5] = {}, frames_done = 0;
+  Pace all;
+  std::vector<long long> frames_to_make;
+  for (long long frame = 0; frame < job.frame_count(); ++frame) {
+    const std::string folder = farm::folder_of(job, frame);
+    long long left = job.tiles;
+    if (render::read_record(folder)) {
+      const render::TileSurvey survey = render::survey_tiles(folder, is_thorough);
+      for (std::size_t i = 0; i < std::size(states); ++i) counts[i] += static_cast<long long>(survey.in_state(states[i]).size());
+      left = survey.job.tiles - static_cast<long long>(survey.in_state(TileState::done).size());
+      const Pace pace = pace_of(folder, survey);
+      all.done += pace.done;
+      all.in_all += pace.in_all;
+      all.render_seconds += pace.render_seconds;
+    } else {
+      counts[2] += job.tiles;
+    }
+    if (left == 0) ++frames_done;
+    else frames_to_make.push_back(job.frames->first + frame);
+  }
+  Json facts{{"folder", job.folder}, {"frames", job.frame_count()}, {"tiles_per_frame", job.tiles}};
+  for (std::size_t i = 0; i < std::size(states); ++i) facts[names[i]] = counts[i];
+  facts["frames_done"] = frames_done;
+  if (!frames_to_make.empty()) facts["frames_to_make"] = render::text_of_tiles(frames_to_make);
+  facts["render_seconds"] = all.render_seconds;
+  if (all.done > 0) facts["samples_per_second_of_one_worker"] = all.of_one_worker();
+  return facts;
+}
+
+void print(const StatusCommand& command, const Json& facts) {
+  if (command.json) {
+    std::cout << facts.dump(1) << '\n';
+    return;
+  }
+  for (const auto& [key, value] : facts.items()) std::cout << key << ": " << (value.is_string() ? value.get<std::string>() : value.dump()) << '\n';
+}
+
 void run(const StatusCommand& command) {
+  if (const auto job = farm::read_farm(command.folder); job && job->frames) {
+    if (command.missing || !command.png.empty())
+      throw bad_input(command.folder, "an animation", "one frame's folder expected with --missing and --png", "For instance " + farm::folder_of(*job, 0));
+    return print(command, facts_of(*job, !command.headers_only));
+  }
   if (!command.png.empty()) check_writable(command.png);
   const render::TileSurvey survey = render::survey_tiles(command.folder, !command.headers_only);
   if (!command.png.empty()) render::write_png(command.png, map_of(survey));
@@ -121,12 +169,7 @@ void run(const StatusCommand& command) {
     std::cout << render::text_of_tiles(survey.to_make()) << '\n';
     return;
   }
-  const Json facts = facts_of(command.folder, survey);
-  if (command.json) {
-    std::cout << facts.dump(1) << '\n';
-    return;
-  }
-  for (const auto& [key, value] : facts.items()) std::cout << key << ": " << (value.is_string() ? value.get<std::string>() : value.dump()) << '\n';
+  print(command, facts_of(command.folder, survey));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <filesystem>
 
 #include "phase/base/error.h"
@@ -25,8 +26,8 @@ class FileLock {
     ::unlink(path_.c_str());  // whoever waits holds it open; at worst a third process computes once more
     ::close(file_);
   }
-  /// True where another process holds it.
-  bool is_taken() const { return file_ >= 0 && ::flock(file_, LOCK_EX | LOCK_NB) != 0; }
+  /// True where another process holds it; not where the file system has no locks (ENOLCK, ENOTSUP).
+  bool is_taken() const { return file_ >= 0 && ::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK; }
   void wait() const { (void)!::flock(file_, LOCK_EX); }
 
  private:

@@ -23,7 +23,7 @@ struct Plan {
 };
 
 /// A tile takes about a minute, but there are at least four of them for each worker, since their work is unequal; none is smaller than the
-/// renderer's own blocks. A task has as many tiles as make a minute of work and thirty times the worker's start, so that starting costs 3 % at
+/// renderer's own blocks. A task has as many tiles as make a minute of work and forty times the worker's start, so that starting costs 2.5 % at
 /// most; fewer where workers would have nothing to do; more where the engine takes no more tasks.
 Plan plan_of(const Workload& workload);
 

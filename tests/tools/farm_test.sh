@@ -89,7 +89,10 @@ expect 0 'f/s.0011.exr' "$ARCUS" farm s.toml --out f --frames 9:11 --set sun.ele
 must "$ARCUS" render s.toml -o frame.exr --no-png --set sun.elevation_deg=20 --set render.seed=10
 check 'a frame differs' are_equal f/s.0010.exr frame.exr
 expect 0 'done: 2' "$ARCUS" status f/frame_0009
+expect 0 'frames_done: 3' "$ARCUS" status f
 rm f/frame_0010/tile_1_of_2.tile
+expect 0 'frames_to_make: 10' "$ARCUS" status f
+expect 2 'one frame.s folder expected' "$ARCUS" status f --missing
 must "$ARCUS" farm s.toml --out f --frames 9:11 --set sun.elevation_deg=10..30 --set 'render.seed={frame}' --quiet
 check 'a frame that was made again differs' are_equal f/s.0010.exr frame.exr
 

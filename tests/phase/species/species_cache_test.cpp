@@ -1,15 +1,28 @@
 #include "phase/species/species_cache.h"
 
 #include <gtest/gtest.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 
 #include "phase/base/units.h"
 #include "phase/base/whole_file.h"
 #include "tests/phase/species/scratch_folder.h"
+
+namespace {
+bool has_locks = true;
+}
+
+/// Stands before the library's, in this program: a file system such as NFS without its lock service, when wanted.
+extern "C" int flock(int file, int operation) {
+  if (has_locks) return static_cast<int>(::syscall(SYS_flock, file, operation));
+  errno = ENOLCK;
+  return -1;
+}
 
 namespace arcus::phase {
 namespace {
@@ -130,6 +143,28 @@ TEST(SpeciesCache, OfTwoProcessesOneComputesAndTheOtherWaits) {
     EXPECT_EQ(status, 0);
   }
   EXPECT_EQ(files_in(folder.folder()), 2);  // the table, and one process that made it
+}
+
+TEST(SpeciesCache, WithoutLocksEveryProcessComputesAndNoneWaits) {
+  const ScratchFolder folder;
+  Told told;
+  const SpeciesCache cache(folder.folder(), told.log());
+  has_locks = false;
+  pid_t children[3];
+  for (pid_t& child : children) {
+    child = ::fork();
+    if (child != 0) continue;
+    const bool is_right = cache.find_or_make(id, [] { return ::usleep(200000), isotropic(7); }).size_um[0] == 7;
+    ::_exit(is_right && told.text.empty() ? 0 : 1);
+  }
+  for (const pid_t child : children) {
+    int status = -1;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_EQ(status, 0);
+  }
+  has_locks = true;
+  EXPECT_EQ(files_in(folder.folder()), 1);  // the table; each wrote all of it
+  EXPECT_EQ(cache.find_or_make(id, []() -> SpeciesFile { throw std::runtime_error("no"); }).size_um[0], 7);
 }
 
 TEST(SpeciesCache, LiesWhereUsersOfLinuxExpectIt) {

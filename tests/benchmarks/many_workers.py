@@ -1,0 +1,99 @@
+#!/usr/bin/env python3
+"""What a picture takes on W machines, from the measured times of its tiles. Needs numpy.
+
+    arcus tile SCENE --tiles 0-1599/1600 --out DIR --threads 1 [--set render.samples_per_pixel=...]
+    many_workers.py DIR --start-seconds 2 --write-seconds 0.05 --merge-seconds 50 --hours 100
+
+Many small tiles are a map of the picture's cost. Larger tiles are sums of them, and more samples are a factor: --hours says how many hours
+of one worker the picture shall take. Workers take the next task when they are free, as every engine does; a task costs its start once, a tile its
+rendering and its writing; the merge comes after all. The efficiency is the work over the workers' time until the last tile is there, the merge
+not counted; the speed-up is with the merge. Printed as a Markdown table, one row a number of tiles, one column a number of workers.
+"""
+import argparse
+import heapq
+import json
+import math
+import pathlib
+import struct
+
+import numpy
+
+
+def tile_times(folder):
+    """Seconds and box (x0, y0, x1, y1) of every tile, and the picture's size."""
+    times, boxes, picture = [], [], None
+    for path in sorted(pathlib.Path(folder).glob("tile_*.tile")):
+        with open(path, "rb") as file:
+            magic, _, length = struct.unpack("<8sII", file.read(16))
+            if magic != b"arcusflm":
+                raise SystemExit(f"{path}: no tile")
+            file.seek(32, 1)
+            header = json.loads(file.read(length))
+        times.append(json.loads(header["about"])["render_seconds"])
+        boxes.append(header["box"])
+        picture = header["picture"]
+    if not times:
+        raise SystemExit(f"{folder}: no tiles")
+    return numpy.array(times), numpy.array(boxes), picture
+
+
+def cost_map(times, boxes, picture):
+    """Seconds a pixel [row, column], summed over rows and columns so that rectangles are four lookups."""
+    width, height = picture
+    cost = numpy.zeros((height, width))
+    for seconds, (x0, y0, x1, y1) in zip(times, boxes):
+        cost[y0:y1, x0:x1] = seconds / ((x1 - x0) * (y1 - y0))
+    return numpy.pad(cost.cumsum(0).cumsum(1), ((1, 0), (1, 0)))
+
+
+def boxes_of(width, height, count):
+    """As tile_box in src/render/tile.cpp cuts a picture."""
+    nearest = int(math.floor(math.sqrt(count * height / width) + 0.5))
+    rows = min(max(nearest, -(-count // width)), min(height, count))
+    first = [row * count // rows for row in range(rows + 1)]
+    top = [row + (height - rows) * first[row] // count for row in range(rows + 1)]
+    for row in range(rows):
+        tiles = first[row + 1] - first[row]
+        for column in range(tiles):
+            yield width * column // tiles, top[row], width * (column + 1) // tiles, top[row + 1]
+
+
+def last_finish(tasks, workers):
+    """When the last of the tasks ends, each taken by the worker that is free first."""
+    free = [0.0] * min(workers, len(tasks))
+    for seconds in tasks:
+        heapq.heapreplace(free, free[0] + seconds)
+    return max(free)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder")
+    parser.add_argument("--start-seconds", type=float, required=True, help="of a worker, before it renders")
+    parser.add_argument("--write-seconds", type=float, required=True, help="of a tile, beside its rendering")
+    parser.add_argument("--merge-seconds", type=float, required=True)
+    parser.add_argument("--hours", type=float, required=True, help="of one worker, for the whole picture")
+    parser.add_argument("--tiles", type=int, nargs="*", default=[250, 1000, 4000, 10000])
+    parser.add_argument("--workers", type=int, nargs="*", default=[1, 2, 10, 100, 300, 1000])
+    parser.add_argument("--most-tasks", type=int, default=1001, help="that the engine takes (Slurm: MaxArraySize)")
+    given = parser.parse_args()
+    times, boxes, picture = tile_times(given.folder)
+    cost = cost_map(times, boxes, picture) * (given.hours * 3600 / times.sum())
+    print(f"{len(times)} measured tiles: {times.sum():.1f} s, the slowest {times.max() / times.mean():.2f} times the mean\n")
+    print("| tiles | a task | a tile, mean | slowest | " + " | ".join(f"{w} workers" for w in given.workers) + " |")
+    print("| ---: | ---: | ---: | ---: | " + " | ".join("---:" for _ in given.workers) + " |")
+    for count in given.tiles:
+        # Boxes of the measured picture; a larger one is cut alike.
+        tiles = numpy.array([cost[y1, x1] - cost[y0, x1] - cost[y1, x0] + cost[y0, x0] for x0, y0, x1, y1 in boxes_of(*picture, count)])
+        mean = tiles.mean()
+        a_task = max(1, math.ceil(max(60, 40 * given.start_seconds) / mean), math.ceil(count / given.most_tasks))
+        tasks = [given.start_seconds + sum(tiles[i:i + a_task] + given.write_seconds) for i in range(0, count, a_task)]
+        cells = []
+        for workers in given.workers:
+            end = last_finish(tasks, workers)
+            cells.append(f"{tiles.sum() / (workers * end):.1%}, {tiles.sum() / (end + given.merge_seconds):.0f}×")
+        print(f"| {count} | {a_task} | {mean:.1f} s | {tiles.max():.1f} s | " + " | ".join(cells) + " |")
+
+
+if __name__ == "__main__":
+    main()
