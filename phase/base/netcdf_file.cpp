@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -42,6 +43,8 @@ void check_length(const std::string& path) {
 
 std::mutex& netcdf_library() {
   static std::mutex mutex;
+  // HDF5 locks files as it opens them, and fails where a file system has no locks, as NFS may. Ours are whole before anyone finds them.
+  [[maybe_unused]] static const int no_locks = ::setenv("HDF5_USE_FILE_LOCKING", "FALSE", 0);
   return mutex;
 }
 
