@@ -19,6 +19,7 @@
 #include "src/farm/pilot.h"
 #include "src/farm/plan.h"
 #include "src/render/tile_job.h"
+#include "src/scene/fingerprint.h"
 #include "tools/child_program.h"
 #include "tools/command.h"
 #include "tools/farm_engine.h"
@@ -210,7 +211,13 @@ void run(FarmCommand command) {
     farm::check_belongs(job, frame, frame == 0 ? first : settings_of(job, frame), frame == 0);
   const long long tiles_there = command.tiles > 0 ? command.tiles : render::read_record(farm::folder_of(job, 0)) ? job.tiles : 0;
   if (tiles_there > 0) render::tile_job(first, tiles_there);  // or there are more tiles than pixels
-  if (!goes_on) make_plan(command, engine.get(), job, tiles_there, say);
+  if (!goes_on && command.tiles > 0 && command.tiles_per_task > 0) {
+    job.tiles = command.tiles;
+    job.tiles_per_task = command.tiles_per_task;
+    render::scene_identity(first);  // a file that is missing is found here and not by a thousand workers
+  } else if (!goes_on) {
+    make_plan(command, engine.get(), job, tiles_there, say);
+  }
   farm::write_farm(job, options.retries);
   check_writable(farm::picture_of(job, 0));
 

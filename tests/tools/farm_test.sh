@@ -85,7 +85,7 @@ check 'the picture of printed commands differs' are_equal 'p q/s.exr' whole.exr
 check 'commands are printed for tiles that are there' test -z "$("$ARCUS" farm s.toml --out 'p q' --engine print 2>/dev/null)"
 
 # An animation.
-expect 0 'f/s.0011.exr' "$ARCUS" farm s.toml --out f --frames 9:11 --set sun.elevation_deg=10..30 --set 'render.seed={frame}' --tiles 2
+expect 0 'f/s.0011.exr' "$ARCUS" farm s.toml --out f --frames 9:11 --set sun.elevation_deg=10..30 --set 'render.seed={frame}' --tiles 2 --tiles-per-task 2
 must "$ARCUS" render s.toml -o frame.exr --no-png --set sun.elevation_deg=20 --set render.seed=10
 check 'a frame differs' are_equal f/s.0010.exr frame.exr
 expect 0 'done: 2' "$ARCUS" status f/frame_0009
@@ -141,7 +141,7 @@ check 'the picture of 64 tiles differs' are_equal many/s.exr whole.exr
 # A task that cannot be done: what it said is repeated, and the same command goes on.
 printf '#!/bin/sh\necho "small: no space" >&2\nexit 1\n' >small
 chmod +x small
-expect 4 'task 0: small: no space' "$ARCUS" farm s.toml --out small_disk --tiles 2 --program "$work/small" --retries 0
+expect 4 'task 0: small: no space' "$ARCUS" farm s.toml --out small_disk --tiles 2 --tiles-per-task 1 --program "$work/small" --retries 0
 must "$ARCUS" farm s.toml --out small_disk --quiet
 check 'the picture after failures differs' are_equal small_disk/s.exr whole.exr
 
