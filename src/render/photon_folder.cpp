@@ -1,6 +1,5 @@
 #include "src/render/photon_folder.h"
 
-#include <chrono>
 #include <filesystem>
 #include <set>
 #include <thread>
@@ -93,7 +92,8 @@ PhotonSurvey survey_photons(const std::string& job_folder, const TileJob& job, b
 PhotonFolder::PhotonFolder(const std::string& job_folder, const TileJob& job, const PhotonSending& sending, const std::atomic<int>* stop_request,
                            std::function<void(std::string_view)> say)
     : job_folder_(job_folder), job_(job), sending_(sending), stop_request_(stop_request), say_(std::move(say)) {
-  const std::size_t ranges = sending.range_count(), passes = sending.relaxes() && sending.aimed() >= least_shared ? static_cast<std::size_t>(sending.settings().passes) : 0;
+  const bool shares_relaxed = sending.relaxes() && sending.aimed() >= least_shared;
+  const std::size_t ranges = sending.range_count(), passes = shares_relaxed ? static_cast<std::size_t>(sending.settings().passes) : 0;
   ranges_ = {range_word, ranges, std::vector<bool>(ranges)};
   relaxed_ = {relaxed_word, passes, std::vector<bool>(passes)};
   const std::string folder = folder_of(job_folder);
@@ -104,6 +104,11 @@ PhotonFolder::PhotonFolder(const std::string& job_folder, const TileJob& job, co
 }
 
 std::string PhotonFolder::path_of(const Shelf& shelf, std::size_t number) const { return path_in(job_folder_, shelf.word, shelf.count, number); }
+
+std::vector<PhotonStretch> PhotonFolder::stretches_of(const Shelf& shelf, std::size_t number) const {
+  if (&shelf == &ranges_) return sending_.range(number);
+  return {{static_cast<std::uint32_t>(number), true, 0, sending_.aimed()}};
+}
 
 std::optional<PhotonFolder::Missing> PhotonFolder::missing(Shelf& shelf, double start) const {
   const std::set<std::string> names = names_in(folder_of(job_folder_));
@@ -159,6 +164,7 @@ std::optional<StoredPhotons> PhotonFolder::read(const Shelf& shelf, std::size_t 
   try {
     StoredPhotons stored = read_photons(path);
     require(stored.facts, path, job_);
+    if (stored.facts.stretches != stretches_of(shelf, number)) throw Error(Fault::incomplete, path + ": holds other photons than it should");
     return stored;
   } catch (const Error& error) {
     if (error.fault() != Fault::incomplete) throw;
@@ -171,11 +177,18 @@ std::optional<StoredPhotons> PhotonFolder::read(const Shelf& shelf, std::size_t 
 void PhotonFolder::write(Shelf& shelf, std::size_t number, WholeFile& file, StoredPhotons& stored) {
   stored.facts.belongs_to = id_of(job_);
   stored.facts.about = json_of(job_);
+  stored.facts.stretches = stretches_of(shelf, number);
   stored.facts.number = number;
   stored.facts.count = shelf.count;
   write_photons(file.temporary_path(), stored);
   file.commit();
   shelf.is_there[number] = true;
+}
+
+void PhotonFolder::say_done(const std::string& what, Clock::time_point begin) const {
+  char line[100];
+  std::snprintf(line, sizeof line, "photons, %s: %.1f s", what.c_str(), std::chrono::duration<double>(Clock::now() - begin).count());
+  say_(line);
 }
 
 std::optional<std::vector<LandedPhotons>> PhotonFolder::landed(std::size_t range) {
@@ -190,11 +203,8 @@ std::optional<std::vector<LandedPhotons>> PhotonFolder::send(std::size_t range) 
   auto landed = sending_.send(range, stop_request_);
   if (!landed) return std::nullopt;
   StoredPhotons stored{{}, std::move(*landed)};
-  stored.facts.stretches = sending_.range(range);
   write(ranges_, range, file, stored);
-  char line[100];
-  std::snprintf(line, sizeof line, "photons, range %zu of %zu: %.1f s", range, ranges_.count, std::chrono::duration<double>(Clock::now() - begin).count());
-  say_(line);
+  say_done("range " + std::to_string(range) + " of " + std::to_string(ranges_.count), begin);
   return std::move(stored.landed);
 }
 
@@ -238,13 +248,10 @@ std::optional<Relaxed> PhotonFolder::relax_here(std::size_t pass, std::vector<Ph
   StoredPhotons stored{{}, {}};
   stored.facts.is_relaxed = true;
   stored.facts.relaxed = *relaxed;
-  stored.facts.stretches = {{static_cast<std::uint32_t>(pass), true, 0, sending_.aimed()}};
   stored.landed.push_back({std::move(photons), {}});
   write(relaxed_, pass, file, stored);
   photons = std::move(stored.landed[0].on_surfaces);
-  char line[100];
-  std::snprintf(line, sizeof line, "photons, pass %zu of %zu relaxed: %.1f s", pass, relaxed_.count, std::chrono::duration<double>(Clock::now() - begin).count());
-  say_(line);
+  say_done("pass " + std::to_string(pass) + " of " + std::to_string(relaxed_.count) + " relaxed", begin);
   return relaxed;
 }
 

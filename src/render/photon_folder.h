@@ -9,6 +9,7 @@
 // been. The temporary file of what is being made shows that another is at it: that comes last, and is waited for where the other is on this
 // machine and runs. Two workers on one file do no harm. Then each gathers all in order: the photons of one process, to the bit.
 
+#include <chrono>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -59,6 +60,8 @@ class PhotonFolder : public PhotonSource {
     std::vector<bool> is_there;  ///< have been seen to be whole, and are not looked at again
   };
   std::string path_of(const Shelf& shelf, std::size_t number) const;
+  /// What such a file holds.
+  std::vector<PhotonStretch> stretches_of(const Shelf& shelf, std::size_t number) const;
   struct Missing {
     std::size_t number;
     bool is_being_made;
@@ -71,6 +74,7 @@ class PhotonFolder : public PhotonSource {
   void write(Shelf& shelf, std::size_t number, WholeFile& file, StoredPhotons& stored);
   std::optional<std::vector<LandedPhotons>> send(std::size_t range);
   std::optional<Relaxed> relax_here(std::size_t pass, std::vector<Photon>& photons, WholeFile& file);
+  void say_done(const std::string& what, std::chrono::steady_clock::time_point begin) const;
   bool is_stopped() const { return stop_request_ && stop_request_->load() != 0; }
 
   std::string job_folder_;

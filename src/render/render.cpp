@@ -48,7 +48,8 @@ class Reporter {
 };
 
 /// Without an integrator, because it was stopped before there was one, nothing is added.
-RunResult render_since(Clock::time_point begin, const Scene& scene, const Integrator* integrator, const RenderSettings& settings, const RunOptions& options, Film& film) {
+RunResult render_since(Clock::time_point begin, const Scene& scene, const Integrator* integrator, const RenderSettings& settings,
+                       const RunOptions& options, Film& film) {
   const auto seconds_since_begin = [begin] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
   const auto seed = static_cast<std::uint64_t>(settings.seed);
   const PixelBox area = film.box();
