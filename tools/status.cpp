@@ -16,6 +16,7 @@
 #include "phase/base/whole_file.h"
 #include "src/farm/farm_job.h"
 #include "src/film/image_file.h"
+#include "src/render/photon_folder.h"
 #include "src/render/tile.h"
 #include "src/render/tile_folder.h"
 #include "tools/command.h"
@@ -62,7 +63,7 @@ Pace pace_of(const std::string& folder, const render::TileSurvey& survey) {
   return pace;
 }
 
-Json facts_of(const std::string& folder, const render::TileSurvey& survey) {
+Json facts_of(const std::string& folder, const render::TileSurvey& survey, const render::PhotonSurvey& photons) {
   const render::TileJob& job = survey.job;
   Json facts{{"folder", folder},
              {"scene_hash", job.scene.hash},
@@ -83,6 +84,15 @@ Json facts_of(const std::string& folder, const render::TileSurvey& survey) {
     if (const std::string why = survey.first_reason(state); !why.empty()) facts[std::string(name) + "_because"] = why;
   }
   if (!survey.strangers.empty()) facts["other_files"] = survey.strangers;
+  if (photons.ranges > 0) {
+    facts["photon_ranges"] = photons.ranges;
+    facts["photon_ranges_done"] = photons.ranges_done;
+  }
+  if (photons.passes > 0) {
+    facts["photon_passes"] = photons.passes;
+    facts["photon_passes_relaxed"] = photons.passes_done;
+  }
+  if (!photons.foreign.empty()) facts["foreign_photons_because"] = photons.foreign_because;
   const Pace pace = pace_of(folder, survey);
   facts["fraction"] = pace.done / pace.in_all;
   facts["render_seconds"] = pace.render_seconds;
@@ -169,7 +179,7 @@ void run(const StatusCommand& command) {
     std::cout << render::text_of_tiles(survey.to_make()) << '\n';
     return;
   }
-  print(command, facts_of(command.folder, survey));
+  print(command, facts_of(command.folder, survey, render::survey_photons(command.folder, survey.job, !command.headers_only)));
 }
 
 }  // namespace

@@ -13,9 +13,11 @@
 #include "phase/base/whole_file.h"
 #include "phase/settings/toml_text.h"
 #include "phase/species/species_cache.h"
+#include "src/render/photon_folder.h"
 #include "src/render/render_tile.h"
 #include "src/render/tile.h"
 #include "src/render/tile_folder.h"
+#include "src/render/tile_integrator.h"
 #include "src/scene/build_scene.h"
 #include "tools/command.h"
 #include "tools/progress.h"
@@ -46,6 +48,9 @@ std::vector<long long> to_render(const TileCommand& command, const render::TileJ
     if (report.state == render::TileState::damaged && !command.quiet) std::cerr << report.why << "; it is made again\n";
     if (report.state != render::TileState::done) wanted.push_back(tile);
   }
+  if (wanted.empty()) return wanted;
+  const render::PhotonSurvey photons = render::survey_photons(command.folder, job, false);
+  if (!photons.foreign.empty() && !command.force) throw Error(Fault::mismatch, photons.foreign_because + ". " + on_foreign);
   return wanted;
 }
 
@@ -54,6 +59,7 @@ void prepare_folder(const TileCommand& command, const render::TileJob& job, long
   std::filesystem::create_directories(command.folder, error);
   if (!std::filesystem::is_directory(command.folder)) throw cannot("cannot make the folder " + command.folder, error.message());
   remove_abandoned_in(command.folder);
+  for (const std::string& path : render::survey_photons(command.folder, job, false).foreign) std::filesystem::remove(path);
   check_writable(render::tile_path(command.folder, job.tiles, first_tile));  // before the work, not after it
   const auto record = render::read_record(command.folder);
   if (!record || render::id_of(*record) != render::id_of(job)) render::write_record(command.folder, job);
@@ -77,6 +83,8 @@ void report_done(const TileCommand& command, const render::TileJob& job, long lo
                 1e-6 * run.progress.samples_per_second());
   std::cerr << line << (run.is_complete ? "" : ", stopped before it was done; the same command goes on") << '\n';
 }
+
+int exit_when_stopped() { return stop_request() == SIGINT ? exit_interrupted : exit_try_again; }
 
 void run(const TileCommand& command) {
   leave_on_termination();
@@ -106,12 +114,13 @@ void run(const TileCommand& command) {
   options.checkpoint_s = command.checkpoint_s;
   options.stop_request = &stop_request();
   if (!command.quiet) options.report = progress_report(command.progress);
+  const auto integrator = render::make_tile_integrator(settings, scene, job, command.folder, tiles.front(), options, say);
+  if (!integrator) throw Exit{exit_when_stopped()};
   for (const long long tile : tiles) {
-    const render::RunResult result = render::render_tile(settings, scene, job, command.folder, tile, options, say);
+    const render::RunResult result = render::render_tile(settings, scene, *integrator, job, command.folder, tile, options, say);
     if (options.report) end_progress(command.progress);
     report_done(command, job, tile, result);
-    if (result.is_complete) continue;
-    throw Exit{stop_request() == SIGINT ? exit_interrupted : exit_try_again};
+    if (!result.is_complete) throw Exit{exit_when_stopped()};
   }
 }
 

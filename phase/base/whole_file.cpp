@@ -10,6 +10,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
 #include "phase/base/error.h"
 
@@ -23,10 +24,21 @@ std::string temporary_mark() {
   return std::string(".part") + host + "-";
 }
 
+/// How the names of all temporary files of a path begin on this machine.
+std::string temporary_stem(const std::filesystem::path& path) { return "." + path.stem().string() + temporary_mark(); }
+
+/// Whether the process whose number stands there still runs; nothing where there is no number.
+std::optional<bool> still_runs(std::string_view text) {
+  pid_t process = 0;
+  const auto [rest, fault] = std::from_chars(text.data(), text.data() + text.size(), process);
+  if (fault != std::errc() || process <= 0 || rest == text.data() + text.size() || *rest != '-') return std::nullopt;
+  return ::kill(process, 0) == 0 || errno != ESRCH;
+}
+
 std::string temporary_name(const std::string& path) {
   static std::atomic<unsigned> number{0};
   const std::filesystem::path target(path);
-  const std::string name = "." + target.stem().string() + temporary_mark() + std::to_string(::getpid()) + "-" +
+  const std::string name = temporary_stem(target) + std::to_string(::getpid()) + "-" +
                            std::to_string(number++) + target.extension().string();
   return (target.parent_path() / name).string();
 }
@@ -85,11 +97,19 @@ void remove_abandoned_in(const std::string& folder) {
     const std::string name = entry.path().filename().string();
     const std::size_t at = name.rfind(mark);
     if (!name.starts_with(".") || at == std::string::npos) continue;
-    pid_t process = 0;
-    const auto [rest, fault] = std::from_chars(name.data() + at + mark.size(), name.data() + name.size(), process);
-    if (fault == std::errc() && process > 0 && *rest == '-' && ::kill(process, 0) != 0 && errno == ESRCH)
-      ::unlink(entry.path().c_str());
+    if (still_runs(std::string_view(name).substr(at + mark.size())) == false) ::unlink(entry.path().c_str());
   }
+}
+
+bool is_being_written_here(const std::string& path) {
+  const std::filesystem::path target(path);
+  const std::string begin = temporary_stem(target);
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(target.has_parent_path() ? target.parent_path() : ".", error)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(begin) && still_runs(std::string_view(name).substr(begin.size())) == true) return true;
+  }
+  return false;
 }
 
 void check_writable(const std::string& path) { WholeFile whole(path); }

@@ -34,6 +34,9 @@ void write_whole_file(const std::string& path, std::string_view content);
 /// themselves.
 void remove_abandoned_in(const std::string& folder);
 
+/// Whether a process of this machine that still runs has a WholeFile of that path which is not committed.
+bool is_being_written_here(const std::string& path);
+
 /// Throws cannot() unless a file could be made at `path`; leaves nothing.
 void check_writable(const std::string& path);
 

@@ -32,16 +32,19 @@ Pilot run_pilot(const render::SceneSettings& settings, const std::string& cache_
   const auto begin = std::chrono::steady_clock::now();
   const render::Scene scene = render::build_scene(small, build);
   pilot.start_seconds = seconds_since(begin);
-  // Whole passes alone say what the mean over the picture is; the first one is never cut short.
+  // Whole passes alone say what the mean over the picture is; the first one is never cut short. What an integrator makes before is part of the start.
   small.render.samples_per_pixel = 1;
+  const auto begin_integrator = std::chrono::steady_clock::now();
+  const auto integrator = render::prepare_integrator(scene, small.render, {});
+  pilot.start_seconds += seconds_since(begin_integrator);
   double samples = 0, seconds = 0;
   const double threads = std::max(1u, std::thread::hardware_concurrency());
   while (seconds < pilot_seconds) {
-    const render::Picture picture = render::render_picture(small, scene, std::nullopt, {});
-    samples += picture.run.progress.samples_done;
-    seconds += picture.run.progress.seconds;
+    render::Film film(camera.width_px, camera.height_px, {0, 0, camera.width_px, camera.height_px}, small.film, render::ToRgb());
+    const render::RunResult run = render::render(scene, *integrator, small.render, {}, film);
+    samples += run.progress.samples_done;
+    seconds += run.progress.seconds;
     ++small.render.seed;
-    if (small.render.integrator == "photon_map") break;  // its photons are sent anew each time
   }
   pilot.thread_seconds_a_sample = seconds * threads / samples;
   return pilot;

@@ -1,15 +1,9 @@
 #pragma once
 // A film as a file, half-way or done: everything that is needed to go on with it to the same bits, or to join it with others.
 //
-// Little-endian, without gaps:
-//   8 bytes    "arcusflm"
-//   4 bytes    format, an unsigned number: 2
-//   4 bytes    length H of the header, an unsigned number
-//   32 bytes   XXH3 with 128 bits of the header, as hexadecimal digits
-//   H bytes    the header, JSON: what the film belongs to, picture, box, sums a pixel, hashes of the three arrays, and what its writer
-//              has to say about it
-//   arrays     FilmSums: values (64-bit floats), samples and tried (32-bit unsigned numbers)
-// So every byte stands under a hash or is compared with the only value it may have.
+// As src/film/headed_file.h says, with the mark "arcusflm" and format 2. The header: what the film belongs to, picture, box, sums a pixel,
+// hashes of the three arrays, and what its writer has to say about it. The arrays, little-endian: FilmSums, values (64-bit floats), samples
+// and tried (32-bit unsigned numbers).
 
 #include <string>
 

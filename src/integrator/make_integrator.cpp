@@ -9,9 +9,21 @@
 
 namespace arcus::render {
 
-std::unique_ptr<const Integrator> make_integrator(const Scene& scene, const RenderSettings& settings) {
+namespace {
+
+std::unique_ptr<const Integrator> make_photon_map(const Scene& scene, const RenderSettings& settings, const std::atomic<int>* stop_request) {
+  const PhotonSending sending(scene, settings);
+  PhotonsSentHere source(sending, stop_request);
+  auto passes = gather_passes(sending, source);
+  if (!passes) return nullptr;
+  return std::make_unique<PhotonMap>(scene, sending, std::move(*passes));
+}
+
+}  // namespace
+
+std::unique_ptr<const Integrator> make_integrator(const Scene& scene, const RenderSettings& settings, const std::atomic<int>* stop_request) {
   if (settings.integrator == "volume_path") return std::make_unique<VolumePath>(scene, settings.max_bounces);
-  if (settings.integrator == "photon_map") return std::make_unique<PhotonMap>(scene, settings);
+  if (settings.integrator == "photon_map") return make_photon_map(scene, settings, stop_request);
   if (!scene.medium->is_empty())
     throw bad_input("render.integrator", "'" + settings.integrator + "' and a medium", "'volume_path' or 'photon_map' expected: the others see surfaces alone");
   if (settings.integrator == "path") return std::make_unique<PathTracer>(scene, settings.max_bounces);

@@ -5,24 +5,19 @@
 #include "media/medium/scatterer.h"
 #include "media/tracking/collision_walk.h"
 #include "media/tracking/transmittance.h"
-#include "phase/base/error.h"
 
 namespace arcus::render {
 namespace {
 
-/// How many more photons are sent towards smooth surfaces than over the whole scene, whose light is looked up one bounce away.
-constexpr std::uint32_t targeted_per_other = 4;
 /// Turns before roulette may end a path.
 constexpr long long certain_bounces = 4;
-constexpr double progressive_alpha = 2.0 / 3;
+
+std::vector<PhotonPass> sent_here(const PhotonSending& sending) {
+  PhotonsSentHere source(sending);
+  return *gather_passes(sending, source);
+}
 
 }  // namespace
-
-int neighbours_in_pass(int first, int pass) {
-  double squared_radius = first;
-  for (int i = 1; i <= pass; ++i) squared_radius *= (i + progressive_alpha) / (i + 1);
-  return std::max(1, static_cast<int>(std::lround(squared_radius)));
-}
 
 /// What of the sunlight a path still has to find.
 enum class Sunlight {
@@ -41,7 +36,7 @@ struct PhotonMap::Path : PathLight {
 
 struct PhotonMap::Sample {
   const Wavelengths& wavelengths;
-  const Pass& maps;
+  const PhotonPass& maps;
   Random& random;
   Work& work;
   SunLight sunlight;
@@ -51,29 +46,17 @@ struct PhotonMap::Sample {
   void add(const Path& path, const Spectrum& light) { total += path.contribution(light); }
 };
 
-PhotonMap::PhotonMap(const Scene& scene, const RenderSettings& settings)
+PhotonMap::PhotonMap(const Scene& scene, const RenderSettings& settings) : PhotonMap(scene, PhotonSending(scene, settings)) {}
+
+PhotonMap::PhotonMap(const Scene& scene, const PhotonSending& sending) : PhotonMap(scene, sending, sent_here(sending)) {}
+
+PhotonMap::PhotonMap(const Scene& scene, const PhotonSending& sending, std::vector<PhotonPass> passes)
     : scene_(scene),
-      max_bounces_(settings.max_bounces),
-      final_gather_(settings.final_gather),
+      max_bounces_(sending.settings().max_bounces),
+      final_gather_(sending.settings().final_gather),
       has_sky_(!scene.sky.is_dark()),
-      tracer_(scene, settings.max_bounces) {
-  const auto count = static_cast<std::uint32_t>(settings.photons);
-  const std::uint32_t count_over_all = tracer_.has_targets() ? (count + targeted_per_other - 1) / targeted_per_other : count;
-  const auto seed = static_cast<std::uint64_t>(settings.seed);
-  bool has_any = false;
-  for (int i = 0; i < settings.passes; ++i) {
-    const auto number = static_cast<std::uint32_t>(i);
-    LandedPhotons caustic = tracer_.caustic(count, seed, number), all = tracer_.all(count_over_all, seed, number, final_gather_);
-    has_any |= !caustic.on_surfaces.empty() || !caustic.in_media.empty() || !all.on_surfaces.empty() || !all.in_media.empty();
-    const Relaxed relaxed = relax(caustic.on_surfaces, scene.surfaces, {.iterations = static_cast<int>(settings.iterations)});
-    passes_.push_back({PhotonStore(std::move(caustic.on_surfaces)), PhotonStore(std::move(caustic.in_media)), PhotonStore(std::move(all.on_surfaces)),
-                       PhotonStore(std::move(all.in_media)), neighbours_in_pass(static_cast<int>(settings.neighbours), i), relaxed});
-  }
-  // Without final gathering, light that only falls on matte surfaces leaves no photon.
-  if (!has_any && final_gather_)
-    throw bad_input("render.photons", "no photon that has landed, of " + std::to_string(settings.photons) + " sent",
-                    "matte surfaces or media in the sun expected", "Is the sun hidden, or all of it smooth? More photons help where bodies are small");
-}
+      region_(sending.tracer().region()),
+      passes_(std::move(passes)) {}
 
 Spectrum PhotonMap::radiance(const media::Ray& camera_ray, const Wavelengths& wavelengths, const FirstNumbers& first, Random& random, Work& work) const {
   const auto number = std::min(static_cast<std::size_t>(first.choice * static_cast<double>(passes_.size())), passes_.size() - 1);
@@ -128,7 +111,7 @@ bool PhotonMap::meet(Path& path, const Hit& hit, Sample& sample) const {
   const Departure departure = hit.departure(false);
   const Spectrum per_irradiance = albedo * sample.sunlight.irradiance_w_per_m2_nm * static_cast<float>(1 / pi);
   const Flat* flat = scene_.surfaces.flat(hit.piece);
-  const bool is_mapped = tracer_.region().contains(hit.position_m);
+  const bool is_mapped = region_.contains(hit.position_m);
   if (path.wants == Sunlight::beyond_one && is_mapped) {
     const Gathered all = sample.maps.on_surfaces.irradiance(hit.position_m, hit.normal, sample.maps.neighbours, sample.query, flat);
     // From a corner the blur would be seen: there it is looked up another bounce away.

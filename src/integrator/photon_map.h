@@ -10,9 +10,7 @@
 #include <vector>
 
 #include "src/integrator/integrator.h"
-#include "src/integrator/photon_tracer.h"
-#include "src/photon/photon_store.h"
-#include "src/photon/relaxation.h"
+#include "src/integrator/photon_passes.h"
 #include "src/scene/scene.h"
 #include "src/scene/settings.h"
 
@@ -22,21 +20,18 @@ class PhotonMap : public Integrator {
  public:
   /// Sends the photons, on all cores. The scene must outlive it. Throws bad_input where photons fit the scene ill, or where none lands.
   PhotonMap(const Scene& scene, const RenderSettings& settings);
+  /// Of photons that are there, sent as `sending` says.
+  PhotonMap(const Scene& scene, const PhotonSending& sending, std::vector<PhotonPass> passes);
 
   Spectrum radiance(const media::Ray& camera_ray, const Wavelengths& wavelengths, const FirstNumbers& first, Random& random,
                     Work& work) const override;
 
-  /// One pass: light straight from smooth surfaces, and all of it (without final gathering: what is neither that nor straight from the sun).
-  struct Pass {
-    PhotonStore caustic_on_surfaces, caustic_in_media, on_surfaces, in_media;
-    int neighbours;
-    Relaxed relaxed;  ///< of caustic_on_surfaces
-  };
-  const std::vector<Pass>& passes() const { return passes_; }
+  const std::vector<PhotonPass>& passes() const { return passes_; }
 
  private:
   struct Path;
   struct Sample;
+  PhotonMap(const Scene& scene, const PhotonSending& sending);
   bool pass(Path& path, Sample& sample) const;
   bool meet(Path& path, const Hit& hit, Sample& sample) const;
   bool scatter(Path& path, const media::Collision& collision, Sample& sample) const;
@@ -44,11 +39,8 @@ class PhotonMap : public Integrator {
   const Scene& scene_;
   long long max_bounces_;
   bool final_gather_, has_sky_;
-  PhotonTracer tracer_;
-  std::vector<Pass> passes_;
+  Ball region_;  ///< where photons land
+  std::vector<PhotonPass> passes_;
 };
-
-/// Neighbours in pass i = 0, 1, 2, ...: their number falls as the squared radius r²_{i+1} = r²_i (i + α) / (i + 1), α = 2/3.
-int neighbours_in_pass(int first, int pass);
 
 }  // namespace arcus::render

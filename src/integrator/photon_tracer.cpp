@@ -31,11 +31,12 @@ std::uint64_t mixed(std::uint64_t h, std::uint64_t event) {
 Ball around(const media::Box& box) { return {box.centre(), 0.5 * length(box.size())}; }
 
 /// Photons in order of their numbers, whatever threads trace them.
-LandedPhotons in_order(std::uint32_t count, const auto& trace) {
-  const std::uint32_t blocks = (count + block_size - 1) / block_size;
+LandedPhotons in_order(const PhotonNumbers& numbers, const std::atomic<int>* stop_request, const auto& trace) {
+  const std::uint32_t sent = numbers.last - numbers.first, blocks = (sent + block_size - 1) / block_size;
   std::vector<LandedPhotons> parts(blocks);
   tbb::parallel_for(0u, blocks, [&](std::uint32_t block) {
-    for (std::uint32_t i = block * block_size; i < std::min(count, (block + 1) * block_size); ++i) trace(i, parts[block]);
+    if (stop_request && stop_request->load() != 0) return;
+    for (std::uint32_t i = block * block_size; i < std::min(sent, (block + 1) * block_size); ++i) trace(numbers.first + i, parts[block]);
   });
   LandedPhotons landed;
   for (const LandedPhotons& part : parts) landed.append(part);
@@ -225,22 +226,22 @@ void PhotonTracer::follow(Flight& flight, bool first, LandedPhotons& landed) con
   }
 }
 
-LandedPhotons PhotonTracer::caustic(std::uint32_t count, std::uint64_t seed, std::uint32_t pass) const {
+LandedPhotons PhotonTracer::caustic(const PhotonNumbers& numbers, std::uint64_t seed, std::uint32_t pass, const std::atomic<int>* stop_request) const {
   if (targets_.empty()) return {};
   const double area_m2 = targets_.back().areas_m2;
-  return in_order(count, [&](std::uint32_t i, LandedPhotons& landed) {
-    Flight flight(seed, caustic_stream + pass, i, count);
+  return in_order(numbers, stop_request, [&](std::uint32_t i, LandedPhotons& landed) {
+    Flight flight(seed, caustic_stream + pass, i, numbers.count);
     const double place_m2 = flight.random.uniform_double() * area_m2;
     const auto target = std::upper_bound(targets_.begin(), targets_.end() - 1, place_m2, [](double a, const Target& t) { return a < t.areas_m2; });
-    flight.area_m2 = area_m2 / count;
+    flight.area_m2 = area_m2 / numbers.count;
     if (set_out(flight, target->around)) follow_caustic(flight, *target, landed);
   });
 }
 
-LandedPhotons PhotonTracer::all(std::uint32_t count, std::uint64_t seed, std::uint32_t pass, bool first) const {
-  return in_order(count, [&](std::uint32_t i, LandedPhotons& landed) {
-    Flight flight(seed, all_stream + pass, i, count);
-    flight.area_m2 = pi * region_.radius_m * region_.radius_m / count;
+LandedPhotons PhotonTracer::all(const PhotonNumbers& numbers, std::uint64_t seed, std::uint32_t pass, bool first, const std::atomic<int>* stop_request) const {
+  return in_order(numbers, stop_request, [&](std::uint32_t i, LandedPhotons& landed) {
+    Flight flight(seed, all_stream + pass, i, numbers.count);
+    flight.area_m2 = pi * region_.radius_m * region_.radius_m / numbers.count;
     if (set_out(flight, region_)) follow(flight, first, landed);
   });
 }

@@ -5,6 +5,7 @@
 // whose first surface is not that piece are dropped, so that every ray of the sun is sent in one way only. For all other light they cross a
 // ball around the scene evenly. The sun's rim is darker as at 550 nm, at all wavelengths; the light in all is right at each.
 
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -25,6 +26,12 @@ struct LandedPhotons {
   }
 };
 
+/// Photons first to last, not included, of `count` that are sent in a pass. What a photon does depends on the seed, the pass, its number and
+/// `count` alone: what lands of neighbouring numbers, one after the other, is what lands of all of them.
+struct PhotonNumbers {
+  std::uint32_t first, last, count;
+};
+
 /// A ball.
 struct Ball {
   Vec3 centre_m{0, 0, 0};
@@ -43,10 +50,12 @@ class PhotonTracer {
 
   /// Whether there are mirrors or clear bodies.
   bool has_targets() const { return !targets_.empty(); }
-  /// Light that has met smooth surfaces alone before it lands (L S+ D). Its number `count` is of photons sent.
-  LandedPhotons caustic(std::uint32_t count, std::uint64_t seed, std::uint32_t pass) const;
+  /// Light that has met smooth surfaces alone before it lands (L S+ D). Where stop_request becomes non-zero the rest is left out, soon.
+  LandedPhotons caustic(const PhotonNumbers& numbers, std::uint64_t seed, std::uint32_t pass, const std::atomic<int>* stop_request = nullptr) const;
+  LandedPhotons caustic(std::uint32_t count, std::uint64_t seed, std::uint32_t pass) const { return caustic({0, count, count}, seed, pass); }
   /// All sunlight wherever it lands; without `first`, what lands straight from the sun and what caustic() has are left out.
-  LandedPhotons all(std::uint32_t count, std::uint64_t seed, std::uint32_t pass, bool first) const;
+  LandedPhotons all(const PhotonNumbers& numbers, std::uint64_t seed, std::uint32_t pass, bool first, const std::atomic<int>* stop_request = nullptr) const;
+  LandedPhotons all(std::uint32_t count, std::uint64_t seed, std::uint32_t pass, bool first) const { return all({0, count, count}, seed, pass, first); }
 
  private:
   struct Target {

@@ -106,7 +106,7 @@ std::optional<Hit> snapped(const Photon& photon, const Push& push, const Surface
 
 }  // namespace
 
-Relaxed relax(std::vector<Photon>& photons, const Surfaces& surfaces, const Relaxation& relaxation) {
+std::optional<Relaxed> relax_until(std::vector<Photon>& photons, const Surfaces& surfaces, const Relaxation& relaxation, const std::function<bool()>& must_stop) {
   const auto neighbours = static_cast<std::size_t>(relaxation.neighbours);
   std::vector<std::vector<std::uint32_t>> orders(2);
   std::vector<std::vector<Sheet>> levels;
@@ -118,6 +118,7 @@ Relaxed relax(std::vector<Photon>& photons, const Surfaces& surfaces, const Rela
   std::vector<Push> pushes;
   std::vector<double> moves;
   while (result.iterations < relaxation.iterations) {
+    if (must_stop()) return std::nullopt;
     pushes.assign(photons.size(), {});
     for (const std::vector<Sheet>& sheets : levels)
       for (const Sheet& sheet : sheets)
@@ -138,6 +139,10 @@ Relaxed relax(std::vector<Photon>& photons, const Surfaces& surfaces, const Rela
     if (result.last_move < relaxation.enough) break;
   }
   return result;
+}
+
+Relaxed relax(std::vector<Photon>& photons, const Surfaces& surfaces, const Relaxation& relaxation) {
+  return *relax_until(photons, surfaces, relaxation, [] { return false; });
 }
 
 }  // namespace arcus::render

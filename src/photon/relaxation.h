@@ -4,6 +4,8 @@
 // Computer Graphics Forum 28(2), 2009; "Photon Parameterisation for Robust Relaxation Constraints", 32(2), 2013). No photon's share of the light is
 // touched, so what falls on a surface in all is exact. Biased all the same: light moves by less than the spacing of photons.
 
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "src/photon/photon.h"
@@ -34,6 +36,8 @@ struct Relaxed {
 };
 
 /// Moves the photons on their surfaces; the borders of a surface are walls. In parallel; the same bits for any number of threads.
+/// Nothing, and photons half-way, where must_stop says so before an iteration.
+std::optional<Relaxed> relax_until(std::vector<Photon>& photons, const Surfaces& surfaces, const Relaxation& relaxation, const std::function<bool()>& must_stop);
 Relaxed relax(std::vector<Photon>& photons, const Surfaces& surfaces, const Relaxation& relaxation);
 
 }  // namespace arcus::render

@@ -1,16 +1,14 @@
 #include "src/render/render.h"
 
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <chrono>
 #include <condition_variable>
-#include <memory>
 #include <mutex>
 #include <thread>
 
 #include "src/integrator/make_integrator.h"
+#include "src/render/threads.h"
 
 namespace arcus::render {
 namespace {
@@ -49,15 +47,10 @@ class Reporter {
   std::thread thread_;
 };
 
-}  // namespace
-
-RunResult render(const Scene& scene, const RenderSettings& settings, const RunOptions& options, Film& film) {
-  const auto begin = Clock::now();
+/// Without an integrator, because it was stopped before there was one, nothing is added.
+RunResult render_since(Clock::time_point begin, const Scene& scene, const Integrator* integrator, const RenderSettings& settings,
+                       const RunOptions& options, Film& film) {
   const auto seconds_since_begin = [begin] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
-  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  options.threads > 0 ? static_cast<std::size_t>(options.threads) : std::max(1u, std::thread::hardware_concurrency()));
-  const std::unique_ptr<const Integrator> integrator = arena.execute([&] { return make_integrator(scene, settings); });
   const auto seed = static_cast<std::uint64_t>(settings.seed);
   const PixelBox area = film.box();
   const int blocks_x = (area.width() + block_size - 1) / block_size;
@@ -67,7 +60,7 @@ RunResult render(const Scene& scene, const RenderSettings& settings, const RunOp
   for (int y = area.y0; y < area.y1; ++y)
     for (int x = area.x0; x < area.x1; ++x) samples_before += film.next_sample(x, y);
   std::atomic<long long> samples_done{samples_before};
-  std::atomic<bool> is_stopped{false}, is_paused{false};
+  std::atomic<bool> is_stopped{integrator == nullptr}, is_paused{false};
   // However short the limits and slow the machine, a run does something before it stops or saves.
   std::atomic<bool> did_something{false}, has_news{false};
   double last_checkpoint_s = seconds_since_begin();
@@ -105,10 +98,10 @@ RunResult render(const Scene& scene, const RenderSettings& settings, const RunOp
   std::mutex work_mutex;
   {
     Reporter reporter(options.report ? std::function<void()>([&] { options.report(progress()); }) : nullptr);
-    long long done = 0;
-    while (done < settings.samples_per_pixel && !is_stopped) {
-      const long long pass = std::min({std::max(1LL, done), samples_per_pass, settings.samples_per_pixel - done});
-      arena.execute([&] {
+    on_threads(options.threads, [&] {
+      long long done = 0;
+      while (done < settings.samples_per_pixel && !is_stopped) {
+        const long long pass = std::min({std::max(1LL, done), samples_per_pass, settings.samples_per_pixel - done});
         tbb::parallel_for(0, blocks_x * blocks_y, [&](int block) {
           if (is_stopped || must_stop()) {
             is_stopped = true;
@@ -131,20 +124,38 @@ RunResult render(const Scene& scene, const RenderSettings& settings, const RunOp
           samples_done += samples;
           if (samples > 0) did_something = has_news = true;
         });
-      });
-      if (is_paused && !is_stopped) {  // then the same pass again: pixels that have had it are passed over
-        options.checkpoint(film);
-        last_checkpoint_s = seconds_since_begin();
-        is_paused = has_news = false;
-      } else {
-        done += pass;
+        if (is_paused && !is_stopped) {  // then the same pass again: pixels that have had it are passed over
+          options.checkpoint(film);
+          last_checkpoint_s = seconds_since_begin();
+          is_paused = has_news = false;
+        } else {
+          done += pass;
+        }
       }
-    }
+    });
     if (is_stopped && options.checkpoint) options.checkpoint(film);
   }
   result.progress = progress();
   result.is_complete = result.progress.samples_done == result.progress.samples_in_all;
   return result;
+}
+
+}  // namespace
+
+std::unique_ptr<const Integrator> prepare_integrator(const Scene& scene, const RenderSettings& settings, const RunOptions& options) {
+  std::unique_ptr<const Integrator> integrator;
+  on_threads(options.threads, [&] { integrator = make_integrator(scene, settings, options.stop_request); });
+  return integrator;
+}
+
+RunResult render(const Scene& scene, const Integrator& integrator, const RenderSettings& settings, const RunOptions& options, Film& film) {
+  return render_since(Clock::now(), scene, &integrator, settings, options, film);
+}
+
+RunResult render(const Scene& scene, const RenderSettings& settings, const RunOptions& options, Film& film) {
+  const auto begin = Clock::now();
+  const auto integrator = prepare_integrator(scene, settings, options);
+  return render_since(begin, scene, integrator.get(), settings, options, film);
 }
 
 }  // namespace arcus::render

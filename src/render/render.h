@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <functional>
+#include <memory>
 
 #include "src/film/film.h"
 #include "src/integrator/integrator.h"
@@ -44,7 +45,13 @@ struct RunResult {
   Progress progress;
 };
 
+/// The scene's integrator, made on RunOptions::threads; nothing where RunOptions::stop_request becomes non-zero before it is there.
+std::unique_ptr<const Integrator> prepare_integrator(const Scene& scene, const RenderSettings& settings, const RunOptions& options);
+
 /// Renders the film's pixels; goes on where the film is not empty.
+RunResult render(const Scene& scene, const Integrator& integrator, const RenderSettings& settings, const RunOptions& options, Film& film);
+
+/// The same, with the integrator made before; its time counts.
 RunResult render(const Scene& scene, const RenderSettings& settings, const RunOptions& options, Film& film);
 
 }  // namespace arcus::render

@@ -25,8 +25,8 @@ double resume(const std::string& checkpoint, const TileJob& job, Film& film, con
 
 }  // namespace
 
-RunResult render_tile(const SceneSettings& settings, const Scene& scene, const TileJob& job, const std::string& folder, long long tile,
-                      RunOptions options, const std::function<void(std::string_view)>& say) {
+RunResult render_tile(const SceneSettings& settings, const Scene& scene, const Integrator& integrator, const TileJob& job, const std::string& folder,
+                      long long tile, RunOptions options, const std::function<void(std::string_view)>& say) {
   using Clock = std::chrono::steady_clock;
   const std::string path = tile_path(folder, job.tiles, tile), checkpoint = checkpoint_path(folder, job.tiles, tile);
   Film film(job.width_px, job.height_px, tile_box(job.width_px, job.height_px, job.tiles, tile), settings.film, to_rgb_of(settings, job.sun));
@@ -34,7 +34,7 @@ RunResult render_tile(const SceneSettings& settings, const Scene& scene, const T
   const auto begin = Clock::now();
   const auto seconds = [&] { return seconds_before + std::chrono::duration<double>(Clock::now() - begin).count(); };
   options.checkpoint = [&](const Film& now) { write_tile(checkpoint, now, job, tile, seconds()); };
-  const RunResult run = render(scene, settings.render, options, film);
+  const RunResult run = render(scene, integrator, settings.render, options, film);
   if (!run.is_complete) return run;
   write_tile(path, film, job, tile, seconds());
   std::filesystem::remove(checkpoint);

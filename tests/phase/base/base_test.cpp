@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <set>
 
 #include <unistd.h>
@@ -121,6 +122,30 @@ TEST(Columns, SayWhichLineIsWrong) {
     EXPECT_NE(std::string(error.what()).find("file.csv:2"), std::string::npos);
   }
   EXPECT_THROW(read_columns("1,nan\n", "t"), Error);
+}
+
+TEST(WholeFile, IsSeenWhileItIsBeingWrittenHere) {
+  const auto folder = std::filesystem::temp_directory_path() / ("being_written_" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  const std::string path = (folder / "a.txt").string(), gone = (folder / ".b.partelsewhere-1-0.txt").string();
+  std::ofstream(gone) << "of another machine";
+  EXPECT_FALSE(is_being_written_here(path));
+  {
+    WholeFile file(path);
+    EXPECT_TRUE(is_being_written_here(path));
+    EXPECT_FALSE(is_being_written_here((folder / "b.txt").string()));
+    file.commit();
+    EXPECT_FALSE(is_being_written_here(path));
+  }
+  // A process that cannot be: numbers of processes end at 2^22.
+  const WholeFile file(path);
+  ASSERT_TRUE(is_being_written_here(path));
+  const std::string name = std::filesystem::path(file.temporary_path()).filename().string(), mine = std::to_string(::getpid());
+  std::string dead = name;
+  dead.replace(dead.rfind(mine + "-"), mine.size(), "4194305").replace(1, 1, "c");
+  std::ofstream((folder / dead).string()) << "of a process that was killed";
+  EXPECT_FALSE(is_being_written_here((folder / "c.txt").string()));
+  std::filesystem::remove_all(folder);
 }
 
 TEST(WholeFile, LeavesNothingUnlessCommitted) {

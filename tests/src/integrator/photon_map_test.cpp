@@ -10,6 +10,7 @@
 #include "phase/base/error.h"
 #include "phase/base/units.h"
 #include "phase/species/species.h"
+#include "src/integrator/make_integrator.h"
 #include "src/integrator/path_tracer.h"
 #include "src/integrator/volume_path.h"
 #include "tests/src/flask.h"
@@ -73,6 +74,11 @@ SurfaceParts ball_on_floor(const Material& ball) {
   parts.add(one_sphere(Vec3(0, 0, 1), 1), ball);
   return parts;
 }
+bool are_same(const std::vector<Photon>& a, const std::vector<Photon>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Photon)) == 0;
+}
+bool are_same(const LandedPhotons& a, const LandedPhotons& b) { return are_same(a.on_surfaces, b.on_surfaces) && are_same(a.in_media, b.in_media); }
+
 const SunSettings wide_sun{.azimuth_deg = 200, .elevation_deg = 50, .angular_radius_deg = 8, .spectrum = "equal_energy"};
 
 }  // namespace
@@ -202,6 +208,70 @@ TEST(PhotonMap, SameBitsForAnyNumberOfThreads) {
     if (first.empty()) first = found;
     EXPECT_EQ(std::memcmp(first.data(), found.data(), found.size() * sizeof(float)), 0) << threads << " threads";
   }
+}
+
+TEST(PhotonTracer, RangesOneAfterTheOtherAreTheWholeToTheBit) {
+  const Scene scene = surfaces_in_sun(ball_on_floor(water()), wide_sun);
+  const PhotonTracer tracer(scene, 20);
+  const std::uint64_t seed = statistics::test_seed();
+  constexpr std::uint32_t count = 30000;
+  const LandedPhotons caustic = tracer.caustic(count, seed, 1), all = tracer.all(count, seed, 1, true);
+  ASSERT_FALSE(caustic.on_surfaces.empty());
+  for (const std::vector<std::uint32_t>& cuts : {std::vector<std::uint32_t>{0, 1, 2, 4096, 4097, 29999, 30000}, {0, 15000, 30000}}) {
+    LandedPhotons caustic_parts, all_parts;
+    for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+      caustic_parts.append(tracer.caustic({cuts[i], cuts[i + 1], count}, seed, 1));
+      all_parts.append(tracer.all({cuts[i], cuts[i + 1], count}, seed, 1, true));
+    }
+    EXPECT_TRUE(are_same(caustic_parts, caustic));
+    EXPECT_TRUE(are_same(all_parts, all));
+  }
+}
+
+TEST(PhotonSending, RangesCoverAllPassesOnceAndInOrder) {
+  const Scene scene = surfaces_in_sun(ball_on_floor(water()), wide_sun), matte = surfaces_in_sun(ball_on_floor(Material(Matte(0.5))), wide_sun);
+  for (const RenderSettings& settings : {RenderSettings{.photons = 1, .passes = 1}, {.photons = 1000, .passes = 700}, {.photons = 300000, .passes = 3}})
+    for (const Scene* one : {&scene, &matte}) {
+      const PhotonSending sending(*one, settings);
+      const auto aimed = static_cast<std::uint32_t>(one == &scene ? settings.photons : 0), over_all = static_cast<std::uint32_t>(aimed > 0 ? (aimed + 3) / 4 : settings.photons);
+      std::vector<PhotonStretch> joined;
+      std::uint64_t longest = 0, shortest = ~0ull;
+      for (std::size_t i = 0; i < sending.range_count(); ++i) {
+        std::uint64_t photons = 0;
+        for (const PhotonStretch& stretch : sending.range(i)) {
+          ASSERT_LT(stretch.first, stretch.last);
+          photons += stretch.last - stretch.first;
+          const bool goes_on = !joined.empty() && joined.back().pass == stretch.pass && joined.back().is_aimed == stretch.is_aimed;
+          if (!goes_on) {
+            joined.push_back(stretch);
+            continue;
+          }
+          ASSERT_EQ(joined.back().last, stretch.first);
+          joined.back().last = stretch.last;
+        }
+        longest = std::max(longest, photons);
+        if (i + 1 < sending.range_count()) shortest = std::min(shortest, photons);
+      }
+      std::vector<PhotonStretch> expected;
+      for (std::uint32_t pass = 0; pass < settings.passes; ++pass) {
+        if (aimed > 0) expected.push_back({pass, true, 0, aimed});
+        expected.push_back({pass, false, 0, over_all});
+      }
+      EXPECT_EQ(joined, expected) << settings.photons << " photons, " << settings.passes << " passes";
+      if (sending.range_count() > 1) {
+        EXPECT_EQ(shortest, longest);
+      }
+    }
+}
+
+TEST(PhotonSending, StopsSoonAndGivesNothing) {
+  const Scene scene = flask();
+  const RenderSettings settings{.integrator = "photon_map", .photons = 100000, .iterations = 3};
+  std::atomic<int> stop_request{15};
+  EXPECT_FALSE(PhotonSending(scene, settings).send(0, &stop_request));
+  EXPECT_EQ(make_integrator(scene, settings, &stop_request), nullptr);
+  stop_request = 0;
+  EXPECT_NE(make_integrator(scene, settings, &stop_request), nullptr);
 }
 
 TEST(PhotonMap, EveryRayOfTheSunIsSentOnce) {

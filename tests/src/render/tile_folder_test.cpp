@@ -28,7 +28,8 @@ class Tiles : public testing::Test {
   ~Tiles() override { std::filesystem::remove_all(folder_); }
 
   RunResult make(const TileJob& job, long long tile, const RunOptions& options = {}) {
-    return render_tile(settings_, small_scene(settings_), job, folder_, tile, options, [](std::string_view) {});
+    const Scene scene = small_scene(settings_);
+    return render_tile(settings_, scene, *prepare_integrator(scene, settings_.render, options), job, folder_, tile, options, [](std::string_view) {});
   }
   TileJob make_all(long long count) {
     const TileJob job = tile_job(settings_, count);
