@@ -30,9 +30,10 @@ endforeach()
 set(phase ${left})
 
 allow(media/space phase/base)
+allow(media/air phase/base phase/optics media/space)
 allow(media/grid phase/base phase/settings media/space)  # settings: numbers as text in messages
 allow(media/author ${phase} media/space media/grid)
-set(left media/space media/grid)
+set(left media/space media/air media/grid)
 foreach(folder majorant medium tracking)
   allow(media/${folder} ${phase} ${left})
   list(APPEND left media/${folder})

@@ -104,7 +104,7 @@ check 'no host was asked' test -s ssh.txt
 check 'the picture of a host differs' are_equal h/s.exr whole.exr
 
 # Tasks that take some seconds: killed, they are begun again; interrupted, the same command goes on.
-sed -i 's/= 8/= 2000/' s.toml
+sed -i 's/= 8/= 1000/' s.toml
 must "$ARCUS" render s.toml -o whole.exr --no-png
 set +m
 begin() {

@@ -1,0 +1,119 @@
+#include "media/air/atmosphere.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "phase/base/quadrature.h"
+#include "phase/optics/air.h"
+
+namespace arcus::media {
+namespace {
+
+constexpr double ozone_begins_m = 10000, ozone_peaks_m = 25000, ozone_ends_m = 40000;
+constexpr int points = 8;
+
+/// A straight line as seen from the planet's centre: h(s) for the distance s from its origin, without the loss of digits of √(…) − R.
+struct Flight {
+  double radius_m;     ///< of the planet
+  double start_m;      ///< height at s = 0
+  double climb;        ///< cosine of the zenith angle at s = 0
+  double to_lowest_m;  ///< s of the lowest point
+  double lowest_m;     ///< its height; below 0 where the line goes through the planet
+
+  Flight(const Vec3& origin_m, const Vec3& direction, double radius, double height) : radius_m(radius), start_m(height) {
+    const Vec3 from_centre(origin_m.x, origin_m.y, origin_m.z + radius);
+    const double r = radius + height;
+    climb = dot(from_centre, direction) / r;
+    to_lowest_m = -r * climb;
+    const double sine_squared = std::max(0.0, 1 - climb * climb);
+    lowest_m = (height * (2 * radius + height) - r * r * climb * climb) / (r * std::sqrt(sine_squared) + radius);
+  }
+
+  double height_m(double s) const {
+    const double r = radius_m + start_m;
+    const double squares = start_m * (2 * radius_m + start_m) + s * (2 * r * climb + s);  // of the distance to the centre, less radius²
+    return squares / (std::sqrt(squares + radius_m * radius_m) + radius_m);
+  }
+
+  /// Half of the stretch below a height: it lies around the lowest point; 0 where the line stays above.
+  double half_below_m(double height) const {
+    const double difference = (height - lowest_m) * (2 * radius_m + height + lowest_m);
+    return difference > 0 ? std::sqrt(difference) : 0;
+  }
+};
+
+}  // namespace
+
+Atmosphere::Atmosphere(const AirSettings& settings)
+    : settings_(settings),
+      molecules_per_m3_(phase::air_molecules_per_m3_at_sea_level * settings.pressure_hpa / 1013.25),
+      haze_per_m_(settings.haze_depth_550 / settings.haze_scale_height_m),
+      most_ozone_per_m3_(settings.ozone_dobson_units * phase::molecules_per_m2_in_dobson_unit / (0.5 * (ozone_ends_m - ozone_begins_m))) {}
+
+double Atmosphere::height_m(const Vec3& position_m) const {
+  const double radius = settings_.planet_radius_m;
+  const double squares = position_m.x * position_m.x + position_m.y * position_m.y + position_m.z * (2 * radius + position_m.z);
+  return squares / (std::sqrt(squares + radius * radius) + radius);
+}
+
+AirColumns Atmosphere::density(double height_m) const {
+  if (height_m >= settings_.top_m) return {};
+  const double h = std::max(0.0, height_m);
+  const double up = (h - ozone_begins_m) / (ozone_peaks_m - ozone_begins_m), down = (ozone_ends_m - h) / (ozone_ends_m - ozone_peaks_m);
+  return {molecules_per_m3_ * std::exp(-h / settings_.molecule_scale_height_m), most_ozone_per_m3_ * std::max(0.0, std::min(up, down)),
+          haze_per_m_ == 0 ? 0 : haze_per_m_ * std::exp(-h / settings_.haze_scale_height_m)};
+}
+
+AirColumns Atmosphere::columns(const Ray& ray) const {
+  const Flight flight(ray.origin_m, ray.direction, settings_.planet_radius_m, height_m(ray.origin_m));
+  const double half = flight.half_below_m(settings_.top_m);
+  const double begin = std::max(ray.nearest_m, flight.to_lowest_m - half), end = std::min(ray.farthest_m, flight.to_lowest_m + half);
+  if (!(begin < end)) return {};
+
+  // Panels end where layers do: haze and molecules fall by e² at most in one, and ozone is straight.
+  static constexpr std::array<double, 24> layers{0,     250,   500,   1000,  2000,  3000,  4500,  6000,  8000,  10000, 12500, 15000,
+                                                 20000, 25000, 30000, 35000, 40000, 50000, 60000, 70000, 80000, 90000, 100000, 110000};
+  std::array<double, 2 * layers.size() + 3> ends;
+  std::size_t count = 0;
+  const auto add = [&](double s) {
+    if (s > begin && s < end) ends[count++] = s;
+  };
+  for (const double height : layers) {
+    const double half_below = flight.half_below_m(height);
+    if (half_below == 0) continue;
+    add(flight.to_lowest_m - half_below);
+    add(flight.to_lowest_m + half_below);
+  }
+  add(flight.to_lowest_m);
+  ends[count++] = end;
+  std::sort(ends.begin(), ends.begin() + static_cast<std::ptrdiff_t>(count));
+
+  static const Quadrature rule = gauss_legendre(points);
+  AirColumns sum;
+  double left = begin;
+  for (std::size_t panel = 0; panel < count; ++panel) {
+    const double right = ends[panel], half_length = 0.5 * (right - left), middle = 0.5 * (right + left);
+    for (std::size_t i = 0; i < points; ++i) {
+      const AirColumns here = density(flight.height_m(middle + half_length * rule.nodes[i]));
+      const double weight = half_length * rule.weights[i];
+      sum += AirColumns{weight * here.molecules_per_m2, weight * here.ozone_per_m2, weight * here.haze_depth_550};
+    }
+    left = right;
+  }
+  return sum;
+}
+
+double Atmosphere::distance_to_sea_level_m(const Ray& ray) const {
+  const Flight flight(ray.origin_m, ray.direction, settings_.planet_radius_m, height_m(ray.origin_m));
+  const double distance = flight.to_lowest_m - flight.half_below_m(0);
+  return flight.start_m >= 0 && flight.lowest_m < 0 && flight.to_lowest_m > 0 ? std::max(0.0, distance) : std::numeric_limits<double>::infinity();
+}
+
+double Atmosphere::optical_depth(const AirColumns& columns, double wavelength_nm, double haze_ratio) {
+  return columns.molecules_per_m2 * phase::air_scattering_cross_section_m2(wavelength_nm) +
+         columns.ozone_per_m2 * phase::ozone_absorption_cross_section_m2(wavelength_nm) + columns.haze_depth_550 * haze_ratio;
+}
+
+}  // namespace arcus::media
