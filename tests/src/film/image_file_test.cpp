@@ -96,6 +96,44 @@ TEST_F(ImageFile, EqualPicturesGiveEqualBytes) {
   EXPECT_EQ(read_text_file(path("a.exr")), read_text_file(path("b.exr")));
 }
 
+TEST_F(ImageFile, PiecesGiveTheBytesOfTheWhole) {
+  Image image(50, 100, {3, 20, 50, 91}, {"R", "G", "B", "S0.385.0nm"});
+  Random random(2, 2, 2);
+  for (float& value : image.values()) value = random.uniform();
+  image.metadata.set("arcus:samples_per_pixel", 64);
+  write_exr(path("whole.exr"), image);
+  const DisplayPicture picture = noise_picture();
+  write_png(path("whole.png"), picture);
+  for (const std::size_t rows : {1, 7, 16, 40}) {  // lines are packed sixteen together
+    ExrWriter exr(path("pieces.exr"), image.header());
+    const std::span<const float> values = image.values();
+    const std::size_t length = rows * 47 * 4;
+    for (std::size_t at = 0; at < values.size(); at += length) exr.append(values.subspan(at, std::min(length, values.size() - at)));
+    exr.commit();
+    EXPECT_EQ(read_text_file(path("pieces.exr")), read_text_file(path("whole.exr"))) << rows;
+    PngWriter png(path("pieces.png"), picture.width_px, picture.height_px);
+    const std::span<const std::uint8_t> bytes = picture.rgb;
+    const std::size_t png_length = rows * 1200;
+    for (std::size_t at = 0; at < bytes.size(); at += png_length) png.append(bytes.subspan(at, std::min(png_length, bytes.size() - at)));
+    png.commit();
+    EXPECT_EQ(read_text_file(path("pieces.png")), read_text_file(path("whole.png"))) << rows;
+  }
+}
+
+TEST_F(ImageFile, WhatIsNotCommittedLeavesNothing) {
+  const Image image = example();
+  testing::internal::CaptureStderr();
+  for (const std::size_t rows : {0, 1, 16, 18}) {
+    ExrWriter exr(path("a.exr"), image.header());
+    exr.append(std::span(image.values()).first(rows * 32 * 6));
+    PngWriter png(path("a.png"), 2, 20);
+    const std::vector<std::uint8_t> bytes(rows * 6, 100);
+    png.append(bytes);
+  }
+  EXPECT_EQ(files(), 0u);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 TEST_F(ImageFile, CutOffOrForeignOrMissingFilesAreBadInput) {
   write_exr(path("whole.exr"), example());
   const std::string bytes = read_text_file(path("whole.exr"));
