@@ -30,6 +30,13 @@ void add_attribute(OIIO::ImageSpec& spec, const std::string& name, const Metadat
     spec.attribute(name, OIIO::TypeDesc::DOUBLE, std::get_if<double>(&value));
 }
 
+/// Of calm pictures ZIP makes smaller files than PIZ. Noise, which is what large pictures mostly are, it packs worse, in three times the
+/// time: minutes for some gigabytes.
+const char* compression_of(const OIIO::ImageSpec& spec) {
+  constexpr std::size_t large_bytes = 1 << 28;
+  return spec.image_bytes() < large_bytes ? "zip" : "piz";
+}
+
 OIIO::ImageSpec exr_spec(const ImageHeader& header) {
   const PixelBox& box = header.box;
   OIIO::ImageSpec spec(box.width(), box.height(), static_cast<int>(header.channel_names.size()),
@@ -40,7 +47,7 @@ OIIO::ImageSpec exr_spec(const ImageHeader& header) {
   spec.full_width = header.width_px;
   spec.full_height = header.height_px;
   spec.channelnames = header.channel_names;
-  spec.attribute("compression", "zip");
+  spec.attribute("compression", compression_of(spec));
   spec.attribute("DateTime",
                  "");  // otherwise the plugin writes the present time, and no two files are equal
   for (const auto& [name, value] : header.metadata.entries()) add_attribute(spec, name, value);

@@ -20,7 +20,7 @@ void load_image_files();
 class ImageOutput;
 
 /// An EXR that is written from top to bottom, so that a picture need not be in memory as a whole: one part, all channels as 32-bit
-/// float without loss (ZIP), metadata as attributes, the box as data window in the picture's display window.
+/// float without loss (ZIP, and from 256 MiB on PIZ), metadata as attributes, the box as data window in the picture's display window.
 /// Equal pictures give equal bytes, in whatever pieces they come. All throw cannot() where the file cannot be written.
 class ExrWriter {
  public:

@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <bit>
 #include <cmath>
 #include <csignal>
 #include <filesystem>
@@ -118,6 +119,32 @@ TEST_F(ImageFile, PiecesGiveTheBytesOfTheWhole) {
     png.commit();
     EXPECT_EQ(read_text_file(path("pieces.png")), read_text_file(path("whole.png"))) << rows;
   }
+}
+
+TEST_F(ImageFile, LargePicturesKeepEveryBit) {
+  Image band(1024, 64, {"R", "G", "B", "S0.385.0nm"});
+  Random random(5, 5, 5);
+  for (float& value : band.values()) {
+    const std::uint32_t bits = random.bits();
+    value = std::isnan(std::bit_cast<float>(bits)) ? std::numeric_limits<float>::infinity() : std::bit_cast<float>(bits);
+  }
+  constexpr int bands = 260;
+  ImageHeader header = band.header();
+  header.height_px = header.box.y1 = bands * 64;
+  ASSERT_GT(header.box.pixels() * 4 * sizeof(float), 1u << 28);  // packed in another way from there on
+  ExrWriter exr(path("large.exr"), header);
+  const std::vector<float> black(band.values().size());
+  const auto is_noise = [](int i) { return i % 50 == 0; };
+  for (int i = 0; i < bands; ++i) exr.append(is_noise(i) ? band.values() : black);
+  exr.commit();
+  const Image copy = read_exr(path("large.exr"));
+  const auto bits = [](const Image& image, int x, int y, const std::string& name) {
+    return std::bit_cast<std::uint32_t>(image.value(x, y, *image.channel(name)));
+  };
+  for (const std::string& name : band.channel_names())
+    for (int y = 0; y < header.height_px; ++y)
+      for (int x = 0; x < 1024; x += is_noise(y / 64) ? 1 : 77)
+        ASSERT_EQ(bits(copy, x, y, name), is_noise(y / 64) ? bits(band, x, y % 64, name) : 0u) << name << " at " << x << ", " << y;
 }
 
 TEST_F(ImageFile, WhatIsNotCommittedLeavesNothing) {
