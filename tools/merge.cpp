@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -28,11 +29,12 @@ void run(const MergeCommand& command) {
   const std::string png = std::filesystem::path(exr).replace_extension(".png").string();
   check_writable(command.output);  // before the work, not after it
   if (!command.no_png) check_writable(png);
-  const render::Merge merge = render::merge_tiles(command.folder, command.options);
+  render::load_image_files();
+  watch_for_interruption();
+  const render::Merge merge = render::merge_tiles(command.folder, command.output, command.no_png ? "" : png, command.options);
+  if (!merge.is_complete) throw Exit{stop_request() == SIGINT ? exit_interrupted : exit_terminated};
   if (merge.refused > 0)
     std::cerr << "arcus: warning: " << merge.refused << " samples were not finite and are left out; `arcus render --crop` around a black pixel names them\n";
-  render::write_exr(command.output, merge.image);
-  if (!command.no_png) render::write_png(png, tone_mapped(merge.image, merge.tone));
   if (command.quiet) return;
   std::cerr << command.output << (command.no_png ? "" : " and .png");
   if (!merge.left_out.empty()) std::cerr << ": not complete: missing " << render::text_of_tiles(merge.left_out);
@@ -50,6 +52,7 @@ void add_merge(CLI::App& program) {
   app->add_flag("--repair", command->options.repair, "delete damaged tiles, so that they are made again");
   app->add_flag("--no-png", command->no_png, "write the EXR alone");
   app->add_flag("--quiet", command->quiet, "say nothing but errors and warnings");
+  command->options.stop_request = &stop_request();
   app->callback([command] { run(*command); });
 }
 

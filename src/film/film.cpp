@@ -154,24 +154,38 @@ Image Film::to_image() const { return filled(settings_.channels); }
 Image Film::rgb_image() const { return filled({"rgb"}); }
 
 Image Film::filled(const std::vector<std::string>& channels) const {
+  Image image(header_of(channels));
+  put_into(channels, image);
+  return image;
+}
+
+std::size_t Film::bins_in(const std::vector<std::string>& channels) const {
+  return keeps_bins_ && has(channels, "spectral") ? static_cast<std::size_t>(settings_.spectral_bins) : 0;
+}
+
+ImageHeader Film::header_of(const std::vector<std::string>& channels) const {
+  ImageHeader header{width_px_, height_px_, box_, {}, {}};
+  std::vector<std::string>& names = header.channel_names;
+  if (has(channels, "rgb")) names.insert(names.end(), {"R", "G", "B"});
+  if (has(channels, "xyz")) names.insert(names.end(), {"X", "Y", "Z"});
+  if (keeps_squares_ && has(channels, "variance")) names.insert(names.end(), {"variance.R", "variance.G", "variance.B"});
+  const std::size_t bins = bins_in(channels);
+  for (std::size_t bin = 0; bin < bins; ++bin) names.push_back(bin_name(settings_, bin));
+  if (bins > 0) {
+    header.metadata.set("spectralLayoutVersion", std::string("1.0"));
+    header.metadata.set("emissiveUnits", std::string("W.m^-2.sr^-1.nm^-1"));
+  }
+  return header;
+}
+
+void Film::put_into(const std::vector<std::string>& channels, Image& image) const {
+  assert(image.channel_names() == header_of(channels).channel_names);
   const bool rgb = has(channels, "rgb"), xyz = has(channels, "xyz");
   const bool variance = keeps_squares_ && has(channels, "variance");
-  const std::size_t bins = keeps_bins_ && has(channels, "spectral")
-                               ? static_cast<std::size_t>(settings_.spectral_bins)
-                               : 0;
-  std::vector<std::string> names;
-  if (rgb) names.insert(names.end(), {"R", "G", "B"});
-  if (xyz) names.insert(names.end(), {"X", "Y", "Z"});
-  if (variance) names.insert(names.end(), {"variance.R", "variance.G", "variance.B"});
-  for (std::size_t bin = 0; bin < bins; ++bin) names.push_back(bin_name(settings_, bin));
-  Image image(width_px_, height_px_, box_, std::move(names));
-  if (bins > 0) {
-    image.metadata.set("spectralLayoutVersion", std::string("1.0"));
-    image.metadata.set("emissiveUnits", std::string("W.m^-2.sr^-1.nm^-1"));
-  }
-  float* out = image.values().data();
-  const auto put = [&](double value) { *out++ = static_cast<float>(value); };
+  const std::size_t bins = bins_in(channels);
   for (int y = box_.y0; y < box_.y1; ++y) {
+    float* out = &image.value(box_.x0, y, 0);
+    const auto put = [&](double value) { *out++ = static_cast<float>(value); };
     for (int x = box_.x0; x < box_.x1; ++x) {
       const Xyz c = mean_xyz(x, y);
       const Rgb mean = to_rgb_(c);
@@ -192,7 +206,6 @@ Image Film::filled(const std::vector<std::string>& channels) const {
       for (std::size_t bin = 0; bin < bins; ++bin) put(count > 0 ? more[bin] / count : 0);
     }
   }
-  return image;
 }
 
 }  // namespace arcus::render

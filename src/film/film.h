@@ -76,6 +76,10 @@ class Film {
   Image to_image() const;
   /// The picture so far with R, G, B alone.
   Image rgb_image() const;
+  /// What to_image has beside its values.
+  ImageHeader image_header() const { return header_of(settings_.channels); }
+  /// Puts the values of to_image into their place in a picture of the same channels whose box contains the film's.
+  void put_into(Image& image) const { put_into(settings_.channels, image); }
 
   /// All that is kept; set_sums takes what a film of the same box and channels had.
   const FilmSums& sums() const { return sums_; }
@@ -90,7 +94,10 @@ class Film {
            static_cast<std::size_t>(x - box_.x0);
   }
   void refuse(int x, int y, std::uint32_t sample);
+  ImageHeader header_of(const std::vector<std::string>& channels) const;
+  void put_into(const std::vector<std::string>& channels, Image& image) const;
   Image filled(const std::vector<std::string>& channels) const;
+  std::size_t bins_in(const std::vector<std::string>& channels) const;
 
   int width_px_, height_px_;
   PixelBox box_;

@@ -43,6 +43,10 @@ Image::Image(int width_px, int height_px, PixelBox box, std::vector<std::string>
 Image::Image(int width_px, int height_px, std::vector<std::string> channel_names)
     : Image(width_px, height_px, {0, 0, width_px, height_px}, std::move(channel_names)) {}
 
+Image::Image(const ImageHeader& header) : Image(header.width_px, header.height_px, header.box, header.channel_names) {
+  metadata = header.metadata;
+}
+
 std::optional<std::size_t> Image::channel(std::string_view name) const {
   const auto found = std::find(channel_names_.begin(), channel_names_.end(), name);
   if (found == channel_names_.end()) return std::nullopt;

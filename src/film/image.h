@@ -38,6 +38,14 @@ class Metadata {
   std::vector<std::pair<std::string, Value>> entries_;
 };
 
+/// All of a picture but its values.
+struct ImageHeader {
+  int width_px = 0, height_px = 0;  ///< of the whole picture
+  PixelBox box;                     ///< the part of it that is there
+  std::vector<std::string> channel_names;
+  Metadata metadata;
+};
+
 /// Channels over a rectangle of pixels that is part of a larger picture (or all of it).
 class Image {
  public:
@@ -46,7 +54,9 @@ class Image {
   Image(int width_px, int height_px, PixelBox box, std::vector<std::string> channel_names);
   /// The whole picture.
   Image(int width_px, int height_px, std::vector<std::string> channel_names);
+  explicit Image(const ImageHeader& header);
 
+  ImageHeader header() const { return {width_px_, height_px_, box_, channel_names_, metadata}; }
   int width_px() const { return width_px_; }    ///< of the whole picture
   int height_px() const { return height_px_; }  ///< of the whole picture
   const PixelBox& box() const { return box_; }

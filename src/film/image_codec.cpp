@@ -30,42 +30,73 @@ void add_attribute(OIIO::ImageSpec& spec, const std::string& name, const Metadat
     spec.attribute(name, OIIO::TypeDesc::DOUBLE, std::get_if<double>(&value));
 }
 
-OIIO::ImageSpec exr_spec(const Image& image) {
-  const PixelBox& box = image.box();
-  OIIO::ImageSpec spec(box.width(), box.height(), static_cast<int>(image.channel_names().size()),
+/// Of calm pictures ZIP makes smaller files than PIZ. Noise, which is what large pictures mostly are, it packs worse, in three times the
+/// time: minutes for some gigabytes.
+const char* compression_of(const OIIO::ImageSpec& spec) {
+  constexpr std::size_t large_bytes = 1 << 28;
+  return spec.image_bytes() < large_bytes ? "zip" : "piz";
+}
+
+OIIO::ImageSpec exr_spec(const ImageHeader& header) {
+  const PixelBox& box = header.box;
+  OIIO::ImageSpec spec(box.width(), box.height(), static_cast<int>(header.channel_names.size()),
                        OIIO::TypeDesc::FLOAT);
   spec.x = box.x0;
   spec.y = box.y0;
   spec.full_x = spec.full_y = 0;
-  spec.full_width = image.width_px();
-  spec.full_height = image.height_px();
-  spec.channelnames = image.channel_names();
-  spec.attribute("compression", "zip");
+  spec.full_width = header.width_px;
+  spec.full_height = header.height_px;
+  spec.channelnames = header.channel_names;
+  spec.attribute("compression", compression_of(spec));
   spec.attribute("DateTime",
                  "");  // otherwise the plugin writes the present time, and no two files are equal
-  for (const auto& [name, value] : image.metadata.entries()) add_attribute(spec, name, value);
+  for (const auto& [name, value] : header.metadata.entries()) add_attribute(spec, name, value);
   return spec;
 }
 
-OIIO::ImageSpec png_spec(const DisplayPicture& picture, bool has_few_colours) {
-  OIIO::ImageSpec spec(picture.width_px, picture.height_px, 3, OIIO::TypeDesc::UINT8);
+OIIO::ImageSpec png_spec(int width_px, int height_px, bool has_few_colours) {
+  OIIO::ImageSpec spec(width_px, height_px, 3, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
   constexpr int no_filter = 8;  // PNG_FILTER_NONE of libpng
   if (has_few_colours) spec.attribute("png:filter", no_filter);
   return spec;
 }
 
-/// Writes all pixels through the plugin that belongs to the ending of `name`.
-void write_pixels(const std::string& path, const std::string& name, const OIIO::ImageSpec& spec,
-                  OIIO::TypeDesc type, const void* pixels,
-                  OIIO::Filesystem::IOProxy* target = nullptr) {
-  const auto output = OIIO::ImageOutput::create(name, target);
-  if (!output) throw cannot("cannot write " + path, OIIO::geterror());
-  const bool written = output->open(name, spec) && output->write_image(type, pixels);
-  std::string fault = written ? "" : output->geterror();
-  if (!output->close() && fault.empty()) fault = output->geterror();
-  if (!written || !fault.empty()) throw cannot("cannot write " + path, fault);
-}
+/// Writes through the plugin that belongs to the ending of `name`.
+class PluginOutput final : public ImageOutput {
+ public:
+  PluginOutput(std::string path, const std::string& name, const OIIO::ImageSpec& spec, std::unique_ptr<OIIO::Filesystem::IOProxy> target = nullptr)
+      : path_(std::move(path)), target_(std::move(target)), output_(OIIO::ImageOutput::create(name, target_.get())), next_row_(spec.y) {
+    if (!output_) throw cannot("cannot write " + path_, OIIO::geterror());
+    require(output_->open(name, spec));
+  }
+  ~PluginOutput() override {
+    // libpng prints a complaint about pictures that are given up before their first byte is packed.
+    const OIIO::ImageSpec& spec = output_->spec();
+    const std::vector<unsigned char> black(target_ ? spec.scanline_bytes() : 0);
+    for (; target_ && next_row_ < spec.y + spec.height; ++next_row_) output_->write_scanline(next_row_, 0, spec.format, black.data());
+  }
+
+  void append(const void* values, int rows) override {
+    require(output_->write_scanlines(next_row_, next_row_ + rows, 0, output_->spec().format, values));
+    next_row_ += rows;
+  }
+
+  void close() override {
+    const bool is_closed = output_->close();
+    require(is_closed && !output_->has_error());
+  }
+
+ private:
+  void require(bool is_done) {
+    if (!is_done) throw cannot("cannot write " + path_, output_->geterror());
+  }
+
+  std::string path_;
+  std::unique_ptr<OIIO::Filesystem::IOProxy> target_;  // outlives what writes to it
+  std::unique_ptr<OIIO::ImageOutput> output_;
+  int next_row_;
+};
 
 Metadata metadata_of(const OIIO::ImageSpec& spec) {
   Metadata metadata;
@@ -92,8 +123,8 @@ std::string one_line(std::string text) {
   return text;
 }
 
-void write_exr(const std::string& path, const std::string& temporary_path, const Image& image) {
-  write_pixels(path, temporary_path, exr_spec(image), OIIO::TypeDesc::FLOAT, image.values().data());
+std::unique_ptr<ImageOutput> exr_output(const std::string& path, const std::string& temporary_path, const ImageHeader& header) {
+  return std::make_unique<PluginOutput>(path, temporary_path, exr_spec(header));
 }
 
 Image read_exr(const std::string& path) {
@@ -123,16 +154,12 @@ Image read_exr(const std::string& path) {
   return image;
 }
 
-std::string png_bytes(const DisplayPicture& picture, bool has_few_colours) {
-  std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput memory(bytes);
-  write_pixels("a PNG picture", "memory.png", png_spec(picture, has_few_colours),
-               OIIO::TypeDesc::UINT8, picture.rgb.data(), &memory);
-  return std::string(bytes.begin(), bytes.end());
+std::unique_ptr<ImageOutput> png_output(int width_px, int height_px, bool has_few_colours, std::vector<unsigned char>& bytes) {
+  return std::make_unique<PluginOutput>("a PNG picture", "memory.png", png_spec(width_px, height_px, has_few_colours),
+                                        std::make_unique<OIIO::Filesystem::IOVecOutput>(bytes));
 }
 
 }  // namespace
 }  // namespace arcus::render
 
-const arcus::render::ImageCodec arcus_image_codec{&arcus::render::write_exr, &arcus::render::read_exr,
-                                                  &arcus::render::png_bytes};
+const arcus::render::ImageCodec arcus_image_codec{&arcus::render::exr_output, &arcus::render::read_exr, &arcus::render::png_output};

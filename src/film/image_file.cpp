@@ -34,22 +34,62 @@ const ImageCodec& codec() {
 
 void load_image_files() { codec(); }
 
+ExrWriter::ExrWriter(const std::string& path, const ImageHeader& header)
+    : file_(path),
+      output_(codec().exr_output(path, file_.temporary_path(), header)),
+      row_values_(static_cast<std::size_t>(header.box.width()) * header.channel_names.size()) {
+  assert(row_values_ > 0 && header.box.height() > 0);
+}
+
+ExrWriter::~ExrWriter() = default;
+
+void ExrWriter::append(std::span<const float> rows) {
+  assert(rows.size() % row_values_ == 0);
+  output_->append(rows.data(), static_cast<int>(rows.size() / row_values_));
+}
+
+void ExrWriter::commit() {
+  output_->close();
+  file_.commit();
+}
+
 void write_exr(const std::string& path, const Image& image) {
-  assert(!image.channel_names().empty() && image.box().pixels() > 0);
-  WholeFile file(path);
-  codec().write_exr(path, file.temporary_path(), image);
-  file.commit();
+  ExrWriter writer(path, image.header());
+  writer.append(image.values());
+  writer.commit();
 }
 
 Image read_exr(const std::string& path) { return codec().read_exr(path); }
 
+PngWriter::PngWriter(std::string path, int width_px, int height_px)
+    : path_(std::move(path)),
+      output_(codec().png_output(width_px, height_px, false, bytes_)),
+      row_values_(3 * static_cast<std::size_t>(width_px)) {}
+
+PngWriter::~PngWriter() = default;
+
+void PngWriter::append(std::span<const std::uint8_t> rows) {
+  assert(rows.size() % row_values_ == 0);
+  output_->append(rows.data(), static_cast<int>(rows.size() / row_values_));
+}
+
+void PngWriter::commit() {
+  output_->close();
+  write_whole_file(path_, {reinterpret_cast<const char*>(bytes_.data()), bytes_.size()});
+}
+
 void write_png(const std::string& path, const DisplayPicture& picture) {
-  // By way of memory: OpenImageIO 2.4's PNG output does not notice a disk that is full.
-  write_whole_file(path, png_bytes(picture));
+  PngWriter writer(path, picture.width_px, picture.height_px);
+  writer.append(picture.rgb);
+  writer.commit();
 }
 
 std::string png_bytes(const DisplayPicture& picture, bool has_few_colours) {
-  return codec().png_bytes(picture, has_few_colours);
+  std::vector<unsigned char> bytes;
+  const auto output = codec().png_output(picture.width_px, picture.height_px, has_few_colours, bytes);
+  output->append(picture.rgb.data(), picture.height_px);
+  output->close();
+  return std::string(bytes.begin(), bytes.end());
 }
 
 }  // namespace arcus::render

@@ -1,9 +1,13 @@
 #pragma once
 // Pictures in files. EXR: every channel and all metadata, 32-bit float, lossless. PNG: 8 bits.
 
+#include <memory>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "phase/base/whole_file.h"
 #include "src/film/image.h"
 #include "src/film/tone.h"
 
@@ -13,17 +17,51 @@ namespace arcus::render {
 /// a long computation fails before it begins.
 void load_image_files();
 
-/// Writes a picture as EXR: one part, all channels as 32-bit float without loss (ZIP), metadata as
-/// attributes, the box as data window in the picture's display window. Whole or not at all. Equal
-/// pictures give equal bytes. Throws cannot() where the file cannot be written.
+class ImageOutput;
+
+/// An EXR that is written from top to bottom, so that a picture need not be in memory as a whole: one part, all channels as 32-bit
+/// float without loss (ZIP, and from 256 MiB on PIZ), metadata as attributes, the box as data window in the picture's display window.
+/// Equal pictures give equal bytes, in whatever pieces they come. All throw cannot() where the file cannot be written.
+class ExrWriter {
+ public:
+  ExrWriter(const std::string& path, const ImageHeader& header);
+  ~ExrWriter();
+  /// The next rows of the box, as in Image::values().
+  void append(std::span<const float> rows);
+  /// After the last row; a file that is not committed leaves nothing.
+  void commit();
+
+ private:
+  WholeFile file_;
+  std::unique_ptr<ImageOutput> output_;
+  std::size_t row_values_;
+};
+
+/// The whole picture at once.
 void write_exr(const std::string& path, const Image& image);
 
 /// Reads an EXR file (half and float channels alike; the first part of several). Throws bad_input
 /// where it is missing, damaged, cut off or no such picture.
 Image read_exr(const std::string& path);
 
-/// Writes a display picture as 8-bit sRGB PNG, whole or not at all. Throws cannot() where it cannot
-/// be written.
+/// An 8-bit sRGB PNG that is written from top to bottom; the file itself when it is committed, whole or not at all. All throw cannot()
+/// where it cannot be written.
+class PngWriter {
+ public:
+  PngWriter(std::string path, int width_px, int height_px);
+  ~PngWriter();
+  /// The next rows, as in DisplayPicture::rgb.
+  void append(std::span<const std::uint8_t> rows);
+  void commit();
+
+ private:
+  std::string path_;
+  std::vector<unsigned char> bytes_;  // in memory: OpenImageIO 2.4's PNG output does not notice a disk that is full
+  std::unique_ptr<ImageOutput> output_;
+  std::size_t row_values_;
+};
+
+/// The whole picture at once.
 void write_png(const std::string& path, const DisplayPicture& picture);
 
 /// The same as the bytes of a PNG file. `has_few_colours`: packs maps of a few dozen colours much

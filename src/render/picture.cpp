@@ -22,7 +22,7 @@ ToneSettings tone_of(const SceneSettings& settings, const Xyz& sun) {
   return {settings.film.exposure_ev, sun.y > 0 ? sun.y / pi : 1};
 }
 
-void describe(Image& image, const SceneSettings& settings, double samples_per_pixel, double render_seconds) {
+void describe(Metadata& metadata, const SceneSettings& settings, double samples_per_pixel, double render_seconds) {
   MakingOf making;
   making.version = version;
   making.scene_text = text_of(settings);
@@ -30,9 +30,9 @@ void describe(Image& image, const SceneSettings& settings, double samples_per_pi
   making.seed = static_cast<std::uint64_t>(settings.render.seed);
   making.samples_per_pixel = samples_per_pixel;
   making.render_seconds = render_seconds;
-  write_making_of(image.metadata, making);
-  write_camera(image.metadata, settings.camera);
-  write_sun(image.metadata, {settings.sun.azimuth_deg, settings.sun.elevation_deg, settings.sun.angular_radius_deg});
+  write_making_of(metadata, making);
+  write_camera(metadata, settings.camera);
+  write_sun(metadata, {settings.sun.azimuth_deg, settings.sun.elevation_deg, settings.sun.angular_radius_deg});
 }
 
 Picture render_picture(const SceneSettings& settings, const Scene& scene, std::optional<PixelBox> crop,
@@ -53,7 +53,7 @@ Picture render_picture(const SceneSettings& settings, const Scene& scene, std::o
   picture.image = film.to_image();
   picture.refused = film.refused();
   picture.tone = tone_of(settings, sun);
-  describe(picture.image, settings, picture.run.progress.samples_done / static_cast<double>(box.pixels()), picture.run.progress.seconds);
+  describe(picture.image.metadata, settings, picture.run.progress.samples_done / static_cast<double>(box.pixels()), picture.run.progress.seconds);
   return picture;
 }
 

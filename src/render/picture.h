@@ -22,7 +22,7 @@ ToRgb to_rgb_of(const SceneSettings& settings, const Xyz& sun);
 ToneSettings tone_of(const SceneSettings& settings, const Xyz& sun);
 
 /// Writes into the picture's metadata what it shows and how it was made. samples_per_pixel: those that were made, on average.
-void describe(Image& image, const SceneSettings& settings, double samples_per_pixel, double render_seconds);
+void describe(Metadata& metadata, const SceneSettings& settings, double samples_per_pixel, double render_seconds);
 
 struct Picture {
   Image image;          ///< channels as the settings ask for, and metadata

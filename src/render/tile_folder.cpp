@@ -5,6 +5,7 @@
 #include <set>
 
 #include <nlohmann/json.hpp>
+#include <tbb/parallel_for.h>
 
 #include "phase/base/error.h"
 #include "src/film/film_file.h"
@@ -158,13 +159,15 @@ TileSurvey survey_tiles(const std::string& folder, bool is_thorough) {
   survey.job = job_in(folder, names);
   const TileJob& job = survey.job;
   survey.tiles.resize(static_cast<std::size_t>(job.tiles));
-  for (long long tile = 0; tile < job.tiles; ++tile) {
+  tbb::parallel_for(0LL, job.tiles, [&](long long tile) {
     const std::string name = name_of(job.tiles, tile);
-    if (names.erase(name + tile_ending) > 0)
-      survey.tiles[static_cast<std::size_t>(tile)] = inspect_done(tile_path(folder, job.tiles, tile), job, tile, is_thorough);
+    TileReport& report = survey.tiles[static_cast<std::size_t>(tile)];
+    if (names.contains(name + tile_ending))
+      report = inspect_done(tile_path(folder, job.tiles, tile), job, tile, is_thorough);
     else if (names.contains(name + checkpoint_ending))
-      survey.tiles[static_cast<std::size_t>(tile)] = inspect_partial(checkpoint_path(folder, job.tiles, tile), job);
-  }
+      report = inspect_partial(checkpoint_path(folder, job.tiles, tile), job);
+  });
+  for (long long tile = 0; tile < job.tiles; ++tile) names.erase(name_of(job.tiles, tile) + tile_ending);
   for (const std::string& name : names)
     if (is_tile_name(name)) survey.strangers.push_back(name);
   return survey;

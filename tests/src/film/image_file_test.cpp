@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <bit>
 #include <cmath>
 #include <csignal>
 #include <filesystem>
@@ -94,6 +95,70 @@ TEST_F(ImageFile, EqualPicturesGiveEqualBytes) {
   write_exr(path("a.exr"), example());
   write_exr(path("b.exr"), example());
   EXPECT_EQ(read_text_file(path("a.exr")), read_text_file(path("b.exr")));
+}
+
+TEST_F(ImageFile, PiecesGiveTheBytesOfTheWhole) {
+  Image image(50, 100, {3, 20, 50, 91}, {"R", "G", "B", "S0.385.0nm"});
+  Random random(2, 2, 2);
+  for (float& value : image.values()) value = random.uniform();
+  image.metadata.set("arcus:samples_per_pixel", 64);
+  write_exr(path("whole.exr"), image);
+  const DisplayPicture picture = noise_picture();
+  write_png(path("whole.png"), picture);
+  for (const std::size_t rows : {1, 7, 16, 40}) {  // lines are packed sixteen together
+    ExrWriter exr(path("pieces.exr"), image.header());
+    const std::span<const float> values = image.values();
+    const std::size_t length = rows * 47 * 4;
+    for (std::size_t at = 0; at < values.size(); at += length) exr.append(values.subspan(at, std::min(length, values.size() - at)));
+    exr.commit();
+    EXPECT_EQ(read_text_file(path("pieces.exr")), read_text_file(path("whole.exr"))) << rows;
+    PngWriter png(path("pieces.png"), picture.width_px, picture.height_px);
+    const std::span<const std::uint8_t> bytes = picture.rgb;
+    const std::size_t png_length = rows * 1200;
+    for (std::size_t at = 0; at < bytes.size(); at += png_length) png.append(bytes.subspan(at, std::min(png_length, bytes.size() - at)));
+    png.commit();
+    EXPECT_EQ(read_text_file(path("pieces.png")), read_text_file(path("whole.png"))) << rows;
+  }
+}
+
+TEST_F(ImageFile, LargePicturesKeepEveryBit) {
+  Image band(1024, 64, {"R", "G", "B", "S0.385.0nm"});
+  Random random(5, 5, 5);
+  for (float& value : band.values()) {
+    const std::uint32_t bits = random.bits();
+    value = std::isnan(std::bit_cast<float>(bits)) ? std::numeric_limits<float>::infinity() : std::bit_cast<float>(bits);
+  }
+  constexpr int bands = 260;
+  ImageHeader header = band.header();
+  header.height_px = header.box.y1 = bands * 64;
+  ASSERT_GT(header.box.pixels() * 4 * sizeof(float), 1u << 28);  // packed in another way from there on
+  ExrWriter exr(path("large.exr"), header);
+  const std::vector<float> black(band.values().size());
+  const auto is_noise = [](int i) { return i % 50 == 0; };
+  for (int i = 0; i < bands; ++i) exr.append(is_noise(i) ? band.values() : black);
+  exr.commit();
+  const Image copy = read_exr(path("large.exr"));
+  const auto bits = [](const Image& image, int x, int y, const std::string& name) {
+    return std::bit_cast<std::uint32_t>(image.value(x, y, *image.channel(name)));
+  };
+  for (const std::string& name : band.channel_names())
+    for (int y = 0; y < header.height_px; ++y)
+      for (int x = 0; x < 1024; x += is_noise(y / 64) ? 1 : 77)
+        ASSERT_EQ(bits(copy, x, y, name), is_noise(y / 64) ? bits(band, x, y % 64, name) : 0u) << name << " at " << x << ", " << y;
+}
+
+TEST_F(ImageFile, WhatIsNotCommittedLeavesNothing) {
+  const Image image = example();
+  testing::internal::CaptureStderr();
+  for (const std::size_t rows : {0, 1, 16, 18}) {
+    ExrWriter exr(path("a.exr"), image.header());
+    exr.append(std::span(image.values()).first(rows * 32 * 6));
+    PngWriter png(path("a.png"), 2, 20);
+    const std::vector<std::uint8_t> bytes(rows * 6, 100);
+    png.append(bytes);
+  }
+  EXPECT_EQ(files(), 0u);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 TEST_F(ImageFile, CutOffOrForeignOrMissingFilesAreBadInput) {

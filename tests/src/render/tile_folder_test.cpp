@@ -8,6 +8,7 @@
 
 #include "phase/base/error.h"
 #include "src/film/film_file.h"
+#include "src/film/image_file.h"
 #include "src/render/merge.h"
 #include "src/render/picture.h"
 #include "src/render/render_tile.h"
@@ -17,15 +18,27 @@
 namespace arcus::render {
 namespace {
 
-/// A folder of tiles that is gone after the test.
+std::string content(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+/// A folder of tiles, and one for the picture, that are gone after the test.
 class Tiles : public testing::Test {
  protected:
   Tiles() {
     settings_.film.channels = {"rgb", "variance", "spectral"};
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
+    std::filesystem::remove_all(output_);
+    std::filesystem::create_directories(output_);
   }
-  ~Tiles() override { std::filesystem::remove_all(folder_); }
+  ~Tiles() override {
+    std::filesystem::remove_all(folder_);
+    std::filesystem::remove_all(output_);
+  }
 
   RunResult make(const TileJob& job, long long tile, const RunOptions& options = {}) {
     const Scene scene = small_scene(settings_);
@@ -38,17 +51,21 @@ class Tiles : public testing::Test {
     return job;
   }
   Picture whole() { return render_picture(settings_, small_scene(settings_), {}, {}); }
+  Merge merge(const MergeOptions& options = {}) { return merge_tiles(folder_, exr_, png_, options); }
+  bool has_no_output() const { return std::filesystem::is_empty(output_); }
+  /// The merged files have the bytes that the picture would be written with, but for the seconds that it took.
+  void expect_merged(Picture expected) {
+    const double seconds = *read_exr(exr_).metadata.number("arcus:render_seconds");
+    expected.image.metadata.set("arcus:render_seconds", seconds);
+    write_exr(output_ + "/expected.exr", expected.image);
+    EXPECT_EQ(content(exr_), content(output_ + "/expected.exr"));
+    EXPECT_EQ(content(png_), png_bytes(tone_mapped(expected.image, expected.tone)));
+  }
 
   SceneSettings settings_ = small_settings();
   std::string folder_ = testing::TempDir() + "arcus_tiles_" + testing::UnitTest::GetInstance()->current_test_info()->name();
+  std::string output_ = folder_ + "_merged", exr_ = output_ + "/picture.exr", png_ = output_ + "/picture.png";
 };
-
-std::string content(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 void replace(const std::string& path, const std::string& content) { std::ofstream(path, std::ios::binary) << content; }
 
@@ -68,17 +85,17 @@ constexpr int mismatch = static_cast<int>(Fault::mismatch), incomplete = static_
 }  // namespace
 
 TEST_F(Tiles, AnyNumberOfThemGivesTheBitsOfOneProcess) {
-  const Image one = whole().image;
+  const Picture one = whole();
   for (const long long count : {1, 7, 64}) {
+    SCOPED_TRACE(std::to_string(count) + " tiles");
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
     make_all(count);
-    const Merge merge = merge_tiles(folder_, {});
-    EXPECT_EQ(merge.image.values(), one.values()) << count << " tiles";
-    EXPECT_EQ(merge.image.channel_names(), one.channel_names());
-    auto expected = one.metadata;
-    expected.set("arcus:render_seconds", *merge.image.metadata.number("arcus:render_seconds"));
-    EXPECT_EQ(merge.image.metadata.entries(), expected.entries());
+    EXPECT_TRUE(merge().is_complete);
+    expect_merged(one);
+    const Image image = read_exr(exr_);
+    EXPECT_EQ(image.channel_names().size(), one.image.channel_names().size());
+    EXPECT_EQ(image.value(36, 20, 0), one.image.value(36, 20, 0));
   }
 }
 
@@ -90,7 +107,8 @@ TEST_F(Tiles, StoppedOftenTheyHaveTheSameBits) {
     while (!make(job, tile, {.threads = 1 + runs % 3, .time_limit_s = 0.02, .checkpoint_s = 0.005}).is_complete && ++runs < 1000)
       EXPECT_EQ(inspect_tile(folder_, job, tile, true).state, TileState::partial);
   EXPECT_GE(runs, 2);
-  EXPECT_EQ(merge_tiles(folder_, {}).image.values(), whole().image.values());
+  merge();
+  expect_merged(whole());
 }
 
 TEST_F(Tiles, AFileCutAnywhereIsDamaged) {
@@ -103,7 +121,7 @@ TEST_F(Tiles, AFileCutAnywhereIsDamaged) {
   }
   replace(path, good + "x");
   EXPECT_EQ(inspect_tile(folder_, job, 3, false).state, TileState::damaged);
-  EXPECT_EQ(fault_of([&] { merge_tiles(folder_, {}); }), incomplete);
+  EXPECT_EQ(fault_of([&] { merge(); }), incomplete);
 }
 
 TEST_F(Tiles, OneFlippedBitIsFound) {
@@ -132,7 +150,8 @@ TEST_F(Tiles, TilesOfAnotherSceneSeedOrCutAreForeign) {
   EXPECT_EQ(state_under(tile_job(other, 2)).state, TileState::done) << "the exposure of the PNG changes no pixel";
   std::filesystem::copy_file(tile_path(folder_, 2, 0), tile_path(folder_, 2, 1), std::filesystem::copy_options::overwrite_existing);
   EXPECT_EQ(state_under(job).state, TileState::foreign);
-  EXPECT_EQ(fault_of([&] { merge_tiles(folder_, {.allow_partial = true}); }), mismatch);
+  EXPECT_EQ(fault_of([&] { merge({.allow_partial = true}); }), mismatch);
+  EXPECT_TRUE(has_no_output());
 }
 
 TEST_F(Tiles, ACheckpointIsNoTile) {
@@ -147,7 +166,8 @@ TEST_F(Tiles, ADamagedCheckpointCostsNothingButTime) {
   const TileJob job = tile_job(settings_, 1);
   replace(checkpoint_path(folder_, 1, 0), "arcusflm, but not for long");
   EXPECT_TRUE(make(job, 0).is_complete);
-  EXPECT_EQ(merge_tiles(folder_, {}).image.values(), whole().image.values());
+  merge();
+  expect_merged(whole());
 }
 
 TEST_F(Tiles, MergeListsWhatIsMissingAndRepairs) {
@@ -157,7 +177,7 @@ TEST_F(Tiles, MergeListsWhatIsMissingAndRepairs) {
   std::filesystem::resize_file(damaged_tile, 1000);
   std::string said;
   try {
-    merge_tiles(folder_, {});
+    merge();
   } catch (const Error& error) {
     EXPECT_EQ(error.fault(), Fault::incomplete);
     said = error.what();
@@ -165,18 +185,62 @@ TEST_F(Tiles, MergeListsWhatIsMissingAndRepairs) {
   EXPECT_NE(said.find("missing 2,5: damaged 6"), std::string::npos) << said;
   EXPECT_NE(said.find("--tiles 2,5,6/7"), std::string::npos) << said;
   EXPECT_EQ(survey_tiles(folder_, true).to_make(), (std::vector<long long>{2, 5, 6}));
-  const Merge preview = merge_tiles(folder_, {.allow_partial = true});
-  EXPECT_EQ(preview.left_out, (std::vector<long long>{2, 5, 6}));
-  const Image one = whole().image;
+  EXPECT_TRUE(has_no_output());
+  EXPECT_EQ(merge({.allow_partial = true}).left_out, (std::vector<long long>{2, 5, 6}));
+  const Image preview = read_exr(exr_);
+  const Picture one = whole();
   for (long long tile = 0; tile < 7; ++tile) {
-    const PixelBox box = tile_box(one.width_px(), one.height_px(), 7, tile);
+    const PixelBox box = tile_box(one.image.width_px(), one.image.height_px(), 7, tile);
     const bool is_there = tile != 2 && tile != 5 && tile != 6;
-    EXPECT_EQ(preview.image.value(box.x0, box.y0, 0), is_there ? one.value(box.x0, box.y0, 0) : 0) << "tile " << tile;
+    EXPECT_EQ(preview.value(box.x0, box.y0, *preview.channel("R")), is_there ? one.image.value(box.x0, box.y0, 0) : 0) << "tile " << tile;
   }
-  EXPECT_EQ(fault_of([&] { merge_tiles(folder_, {.repair = true}); }), incomplete);
+  EXPECT_EQ(fault_of([&] { merge({.repair = true}); }), incomplete);
   EXPECT_FALSE(std::filesystem::exists(damaged_tile));
   for (const long long tile : {2, 5, 6}) make(job, tile);
-  EXPECT_EQ(merge_tiles(folder_, {}).image.values(), one.values());
+  merge();
+  expect_merged(one);
+}
+
+TEST_F(Tiles, DamageThatIsFoundWhileThePictureIsWrittenLeavesNone) {
+  settings_.camera.height_px = 210;  // several bands
+  make_all(40);
+  const auto spoil = [&](long long tile) {
+    const std::string path = tile_path(folder_, 40, tile);
+    std::string bytes = content(path);
+    bytes[bytes.size() - 3] ^= 1;  // its header is good
+    replace(path, bytes);
+  };
+  for (const long long tile : {21, 39}) spoil(tile);
+  EXPECT_TRUE(survey_tiles(folder_, false).to_make().empty());
+  std::string said;
+  try {
+    merge();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.fault(), Fault::incomplete);
+    said = error.what();
+  }
+  EXPECT_NE(said.find("not complete: damaged 21,39 (" + tile_path(folder_, 40, 21) + ": "), std::string::npos) << said;
+  EXPECT_TRUE(has_no_output());
+  EXPECT_EQ(merge({.allow_partial = true}).left_out, (std::vector<long long>{21, 39}));
+  const Image preview = read_exr(exr_);
+  const Image one = whole().image;
+  double pixels_left_out = 0;
+  for (long long tile = 0; tile < 40; ++tile) {
+    const PixelBox box = tile_box(one.width_px(), one.height_px(), 40, tile);
+    const bool is_left_out = tile == 21 || tile == 39;
+    pixels_left_out += is_left_out ? static_cast<double>(box.pixels()) : 0;
+    const int x = box.x1 - 1, y = box.y1 - 1;
+    EXPECT_EQ(preview.value(x, y, *preview.channel("R")), is_left_out ? 0 : one.value(x, y, 0)) << "tile " << tile;
+  }
+  EXPECT_DOUBLE_EQ(*preview.metadata.number("arcus:samples_per_pixel"),
+                   static_cast<double>(settings_.render.samples_per_pixel) * (1 - pixels_left_out / (37 * 210)));
+}
+
+TEST_F(Tiles, AMergeThatIsStoppedLeavesNoPicture) {
+  make_all(7);
+  const std::atomic<int> stop_request = 2;
+  EXPECT_FALSE(merge({.stop_request = &stop_request}).is_complete);
+  EXPECT_TRUE(has_no_output());
 }
 
 TEST_F(Tiles, ARecordThatIsDamagedOrGoneIsNotNeeded) {
@@ -185,9 +249,11 @@ TEST_F(Tiles, ARecordThatIsDamagedOrGoneIsNotNeeded) {
   record[record.find("\"seed\": 1") + 8] = '7';
   replace(record_path(folder_), record);
   EXPECT_FALSE(read_record(folder_));
-  EXPECT_EQ(merge_tiles(folder_, {}).image.values(), whole().image.values());
+  merge();
+  expect_merged(whole());
   std::filesystem::remove(record_path(folder_));
-  EXPECT_EQ(merge_tiles(folder_, {}).image.values(), whole().image.values());
+  merge();
+  expect_merged(whole());
 }
 
 TEST_F(Tiles, FoldersWithoutTilesAreWrongInput) {
