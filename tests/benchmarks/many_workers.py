@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a picture takes on W machines, from the measured times of its tiles. Needs numpy.
+"""What a picture takes on W machines, from the measured times of its tiles.
 
     arcus tile SCENE --tiles 0-1599/1600 --out DIR --threads 1 [--set render.samples_per_pixel=...]
     many_workers.py DIR --start-seconds 2 --write-seconds 0.05 --merge-seconds 50 --hours 100
@@ -11,12 +11,11 @@ not counted; the speed-up is with the merge. Printed as a Markdown table, one ro
 """
 import argparse
 import heapq
+import itertools
 import json
 import math
 import pathlib
 import struct
-
-import numpy
 
 
 def tile_times(folder):
@@ -34,16 +33,20 @@ def tile_times(folder):
         picture = header["picture"]
     if not times:
         raise SystemExit(f"{folder}: no tiles")
-    return numpy.array(times), numpy.array(boxes), picture
+    return times, boxes, picture
 
 
-def cost_map(times, boxes, picture):
-    """Seconds a pixel [row, column], summed over rows and columns so that rectangles are four lookups."""
+def cost_map(times, boxes, picture, factor):
+    """Seconds above and left of every pixel's corner [row][column], so that the cost of a rectangle takes four lookups."""
     width, height = picture
-    cost = numpy.zeros((height, width))
+    cost = [[0.0] * (width + 1) for _ in range(height + 1)]
     for seconds, (x0, y0, x1, y1) in zip(times, boxes):
-        cost[y0:y1, x0:x1] = seconds / ((x1 - x0) * (y1 - y0))
-    return numpy.pad(cost.cumsum(0).cumsum(1), ((1, 0), (1, 0)))
+        each = seconds * factor / ((x1 - x0) * (y1 - y0))
+        for y in range(y0, y1):
+            cost[y + 1][x0 + 1:x1 + 1] = [each] * (x1 - x0)
+    for above, row in zip(cost, cost[1:]):
+        row[:] = [a + b for a, b in zip(itertools.accumulate(row), above)]
+    return cost
 
 
 def boxes_of(width, height, count):
@@ -78,21 +81,21 @@ def main():
     parser.add_argument("--most-tasks", type=int, default=1001, help="that the engine takes (Slurm: MaxArraySize)")
     given = parser.parse_args()
     times, boxes, picture = tile_times(given.folder)
-    cost = cost_map(times, boxes, picture) * (given.hours * 3600 / times.sum())
-    print(f"{len(times)} measured tiles: {times.sum():.1f} s, the slowest {times.max() / times.mean():.2f} times the mean\n")
+    cost = cost_map(times, boxes, picture, given.hours * 3600 / sum(times))
+    print(f"{len(times)} measured tiles: {sum(times):.1f} s, the slowest {max(times) * len(times) / sum(times):.2f} times the mean\n")
     print("| tiles | a task | a tile, mean | slowest | " + " | ".join(f"{w} workers" for w in given.workers) + " |")
     print("| ---: | ---: | ---: | ---: | " + " | ".join("---:" for _ in given.workers) + " |")
     for count in given.tiles:
         # Boxes of the measured picture; a larger one is cut alike.
-        tiles = numpy.array([cost[y1, x1] - cost[y0, x1] - cost[y1, x0] + cost[y0, x0] for x0, y0, x1, y1 in boxes_of(*picture, count)])
-        mean = tiles.mean()
+        tiles = [cost[y1][x1] - cost[y0][x1] - cost[y1][x0] + cost[y0][x0] for x0, y0, x1, y1 in boxes_of(*picture, count)]
+        mean = sum(tiles) / count
         a_task = max(1, math.ceil(max(60, 40 * given.start_seconds) / mean), math.ceil(count / given.most_tasks))
-        tasks = [given.start_seconds + sum(tiles[i:i + a_task] + given.write_seconds) for i in range(0, count, a_task)]
+        tasks = [given.start_seconds + sum(tiles[i:i + a_task]) + given.write_seconds * len(tiles[i:i + a_task]) for i in range(0, count, a_task)]
         cells = []
         for workers in given.workers:
             end = last_finish(tasks, workers)
-            cells.append(f"{tiles.sum() / (workers * end):.1%}, {tiles.sum() / (end + given.merge_seconds):.0f}×")
-        print(f"| {count} | {a_task} | {mean:.1f} s | {tiles.max():.1f} s | " + " | ".join(cells) + " |")
+            cells.append(f"{sum(tiles) / (workers * end):.1%}, {sum(tiles) / (end + given.merge_seconds):.0f}×")
+        print(f"| {count} | {a_task} | {mean:.1f} s | {max(tiles):.1f} s | " + " | ".join(cells) + " |")
 
 
 if __name__ == "__main__":
