@@ -10,6 +10,7 @@
 #include "phase/base/error.h"
 #include "phase/base/whole_file.h"
 #include "src/farm/task_script.h"
+#include "src/render/tile.h"
 
 namespace arcus::farm {
 namespace {
@@ -54,15 +55,15 @@ std::string record_text(const FarmJob& job) {
 
 std::vector<TaskPart> parts_of(const FarmJob& job, long long task) {
   std::vector<TaskPart> parts;
-  const long long end = std::min((task + 1) * job.tiles_per_task, job.tiles * job.frame_count());
-  for (long long next = task * job.tiles_per_task; next < end;) {
-    const long long frame = next / job.tiles, first = next % job.tiles;
-    const long long count = std::min(job.tiles - first, end - next);
-    parts.push_back({frame, first, first + count - 1});
-    next += count;
+  const long long all = job.tiles * job.frame_count();
+  for (long long next = task; next < all; next += job.task_count()) {
+    if (parts.empty() || parts.back().frame != next / job.tiles) parts.push_back({next / job.tiles, {}});
+    parts.back().tiles.push_back(next % job.tiles);
   }
   return parts;
 }
+
+long long task_of(const FarmJob& job, long long frame, long long tile) { return (frame * job.tiles + tile) % job.task_count(); }
 
 std::vector<std::string> overrides_of(const FarmJob& job, long long frame) {
   if (!job.frames) return job.overrides;
@@ -86,8 +87,9 @@ std::string shell_quoted(const std::string& word) {
 }
 
 std::string command_of(const FarmJob& job, const TaskPart& part) {
-  const std::string range = part.first == part.last ? std::to_string(part.first) : std::to_string(part.first) + "-" + std::to_string(part.last);
-  std::vector<std::string> words{job.program, "tile", job.scene, "--tiles", range + "/" + std::to_string(job.tiles), "--out", folder_of(job, part.frame)};
+  const bool is_all = static_cast<long long>(part.tiles.size()) == job.tiles && job.tiles > 1;
+  const std::string tiles = is_all ? "0-" + std::to_string(job.tiles - 1) : render::text_of_tiles(part.tiles);
+  std::vector<std::string> words{job.program, "tile", job.scene, "--tiles", tiles + "/" + std::to_string(job.tiles), "--out", folder_of(job, part.frame)};
   for (const std::string& one : overrides_of(job, part.frame)) words.insert(words.end(), {"--set", one});
   words.insert(words.end(), job.worker_options.begin(), job.worker_options.end());
   return joined(words);

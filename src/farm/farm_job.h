@@ -33,14 +33,17 @@ struct FarmJob {
   long long task_count() const { return (tiles * frame_count() + tiles_per_task - 1) / tiles_per_task; }
 };
 
-/// Tiles of one frame that one command renders: `first` to `last`, both included.
+/// Tiles of one frame that one command renders.
 struct TaskPart {
-  long long frame = 0;  ///< from 0
-  long long first = 0, last = 0;
+  long long frame = 0;           ///< from 0
+  std::vector<long long> tiles;  ///< ascending
 };
 
-/// What a task renders, in order. 0 <= task < task_count().
+/// What a task renders, in order. 0 <= task < task_count(). Tiles are dealt like cards, frame after frame: each task gets some from all over the
+/// picture, and takes about as long as any other, where tiles in a row would all be cloud or all be sky.
 std::vector<TaskPart> parts_of(const FarmJob& job, long long task);
+/// The task that renders a tile of a frame.
+long long task_of(const FarmJob& job, long long frame, long long tile);
 
 /// Overrides in a frame, counted from 0.
 std::vector<std::string> overrides_of(const FarmJob& job, long long frame);

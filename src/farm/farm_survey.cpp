@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "phase/base/error.h"
 #include "phase/settings/toml_text.h"
@@ -62,13 +63,10 @@ void check_belongs(const FarmJob& job, long long frame, const render::SceneSetti
 }
 
 std::vector<long long> tasks_to_do(const FarmJob& job) {
-  std::vector<long long> tasks;
+  std::set<long long> tasks;
   for (long long frame = 0; frame < job.frame_count(); ++frame)
-    for (const long long tile : tiles_to_make(job, frame)) {
-      const long long task = (frame * job.tiles + tile) / job.tiles_per_task;
-      if (tasks.empty() || tasks.back() != task) tasks.push_back(task);
-    }
-  return tasks;
+    for (const long long tile : tiles_to_make(job, frame)) tasks.insert(task_of(job, frame, tile));
+  return {tasks.begin(), tasks.end()};
 }
 
 long long count_tiles(const FarmJob& job) {

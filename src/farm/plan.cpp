@@ -7,7 +7,7 @@ namespace arcus::farm {
 namespace {
 
 constexpr double tile_seconds = 60, starts_per_task = 40;
-constexpr long long tiles_per_worker = 4, smallest_tile_px = 256, most_tiles = 10'000;
+constexpr long long tiles_per_worker = 4, smallest_tile_px = 256, most_tiles = 40'000;
 
 long long divided_up(long long a, long long b) { return (a + b - 1) / b; }
 

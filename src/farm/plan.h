@@ -17,7 +17,7 @@ struct Workload {
 
 struct Plan {
   long long tiles = 1;           ///< of a frame
-  long long tiles_per_task = 1;  ///< of all frames in a row; the last task may have fewer
+  long long tiles_per_task = 1;  ///< at most
   long long tasks = 1;
   double task_seconds = 0;       ///< that a task will take, about
 };

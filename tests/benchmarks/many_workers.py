@@ -90,7 +90,9 @@ def main():
         tiles = [cost[y1][x1] - cost[y0][x1] - cost[y1][x0] + cost[y0][x0] for x0, y0, x1, y1 in boxes_of(*picture, count)]
         mean = sum(tiles) / count
         a_task = max(1, math.ceil(max(60, 40 * given.start_seconds) / mean), math.ceil(count / given.most_tasks))
-        tasks = [given.start_seconds + sum(tiles[i:i + a_task]) + given.write_seconds * len(tiles[i:i + a_task]) for i in range(0, count, a_task)]
+        # As src/farm/farm_job.cpp deals them: every so-manieth tile, from all over the picture.
+        dealt = -(-count // a_task)
+        tasks = [given.start_seconds + sum(tiles[i::dealt]) + given.write_seconds * len(tiles[i::dealt]) for i in range(dealt)]
         cells = []
         for workers in given.workers:
             end = last_finish(tasks, workers)

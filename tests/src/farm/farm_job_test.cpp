@@ -32,20 +32,32 @@ TEST(FarmJob, TasksHaveEveryTileOfEveryFrameOnce) {
       const auto parts = parts_of(job, task);
       EXPECT_FALSE(parts.empty());
       for (const TaskPart& part : parts)
-        for (long long tile = part.first; tile <= part.last; ++tile) ++seen[static_cast<std::size_t>(part.frame * 5 + tile)];
+        for (const long long tile : part.tiles) {
+          ++seen[static_cast<std::size_t>(part.frame * 5 + tile)];
+          EXPECT_EQ(task_of(job, part.frame, tile), task);
+        }
     }
     EXPECT_EQ(seen, std::vector<int>(15, 1)) << per_task << " tiles a task";
   }
+}
+
+TEST(FarmJob, TasksHaveTilesFromAllOverThePicture) {
+  FarmJob job = a_job();
+  job.tiles = 100;
+  job.tiles_per_task = 10;
+  const auto parts = parts_of(job, 7);
+  ASSERT_EQ(parts.size(), 1u);
+  EXPECT_EQ(parts[0].tiles, (std::vector<long long>{7, 17, 27, 37, 47, 57, 67, 77, 87, 97}));
 }
 
 TEST(FarmJob, CommandsAreAsPeopleTypeThem) {
   FarmJob job = a_job();
   job.overrides = {"sun.elevation_deg=10..20", "camera.position_m=[0, 1, 2]"};
   job.worker_options = {"--threads", "2"};
-  EXPECT_EQ(command_of(a_job(), {0, 4, 4}), "arcus tile 'the scene.toml' --tiles 4/5 --out out");
+  EXPECT_EQ(command_of(a_job(), {0, {1, 3}}), "arcus tile 'the scene.toml' --tiles 1,3/5 --out out");
   job.frames = FrameRange{0, 1};
-  EXPECT_EQ(command_of(job, {1, 0, 2}),
-            "arcus tile 'the scene.toml' --tiles 0-2/5 --out out/frame_0001 --set sun.elevation_deg=20 --set 'camera.position_m=[0, 1, 2]' --threads 2");
+  EXPECT_EQ(command_of(job, {1, {0, 1, 2, 3, 4}}),
+            "arcus tile 'the scene.toml' --tiles 0-4/5 --out out/frame_0001 --set sun.elevation_deg=20 --set 'camera.position_m=[0, 1, 2]' --threads 2");
   EXPECT_EQ(merge_command_of(job, 1), "arcus merge out/frame_0001 -o p.0001.exr");
 }
 
