@@ -41,7 +41,7 @@ endforeach()
 set(media ${left} media/author)
 
 foreach(folder ${src_words})
-  allow(src/${folder} ${phase} media/space)
+  allow(src/${folder} ${phase} media/space media/air)
   list(APPEND src src/${folder})
 endforeach()
 list(APPEND allowed_src/shape src/material)

@@ -66,21 +66,31 @@ AirColumns Atmosphere::density(double height_m) const {
           haze_per_m_ == 0 ? 0 : haze_per_m_ * std::exp(-h / settings_.haze_scale_height_m)};
 }
 
-AirColumns Atmosphere::columns(const Ray& ray) const {
+Ray Atmosphere::clipped(const Ray& ray) const {
   const Flight flight(ray.origin_m, ray.direction, settings_.planet_radius_m, height_m(ray.origin_m));
   const double half = flight.half_below_m(settings_.top_m);
-  const double begin = std::max(ray.nearest_m, flight.to_lowest_m - half), end = std::min(ray.farthest_m, flight.to_lowest_m + half);
-  if (!(begin < end)) return {};
+  Ray inside = ray;
+  inside.nearest_m = std::max(ray.nearest_m, flight.to_lowest_m - half);
+  inside.farthest_m = std::min(ray.farthest_m, flight.to_lowest_m + half);
+  return inside;
+}
 
-  // Panels end where layers do: haze and molecules fall by e² at most in one, and ozone is straight.
-  static constexpr std::array<double, 24> layers{0,     250,   500,   1000,  2000,  3000,  4500,  6000,  8000,  10000, 12500, 15000,
-                                                 20000, 25000, 30000, 35000, 40000, 50000, 60000, 70000, 80000, 90000, 100000, 110000};
+AirColumns Atmosphere::columns(const Ray& ray) const {
+  const Ray inside = clipped(ray);
+  const double begin = inside.nearest_m, end = inside.farthest_m;
+  if (!(begin < end)) return {};
+  const Flight flight(ray.origin_m, ray.direction, settings_.planet_radius_m, height_m(ray.origin_m));
+
+  // Panels end where ozone has its corners, and before molecules or haze have fallen to less than e⁻³ in one: so eight points are good to a millionth.
+  static constexpr std::array<double, 11> layers{500, 1500, 3000, 5000, 7500, 10000, 25000, 40000, 65000, 90000, 110000};
+  constexpr std::size_t layers_of_haze = 5;
   std::array<double, 2 * layers.size() + 3> ends;
   std::size_t count = 0;
   const auto add = [&](double s) {
     if (s > begin && s < end) ends[count++] = s;
   };
-  for (const double height : layers) {
+  for (std::size_t layer = haze_per_m_ > 0 ? 0 : layers_of_haze; layer < layers.size(); ++layer) {
+    const double height = layers[layer];
     const double half_below = flight.half_below_m(height);
     if (half_below == 0) continue;
     add(flight.to_lowest_m - half_below);
@@ -108,7 +118,7 @@ AirColumns Atmosphere::columns(const Ray& ray) const {
 double Atmosphere::distance_to_sea_level_m(const Ray& ray) const {
   const Flight flight(ray.origin_m, ray.direction, settings_.planet_radius_m, height_m(ray.origin_m));
   const double distance = flight.to_lowest_m - flight.half_below_m(0);
-  return flight.start_m >= 0 && flight.lowest_m < 0 && flight.to_lowest_m > 0 ? std::max(0.0, distance) : std::numeric_limits<double>::infinity();
+  return flight.lowest_m < 0 && flight.to_lowest_m > 0 ? std::max(0.0, distance) : std::numeric_limits<double>::infinity();
 }
 
 double Atmosphere::optical_depth(const AirColumns& columns, double wavelength_nm, double haze_ratio) {

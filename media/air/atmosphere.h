@@ -44,7 +44,9 @@ class Atmosphere {
   /// Sum along the stretch from ray.nearest_m to ray.farthest_m, which may be endless: to a millionth. What is below sea level counts with the
   /// density there.
   AirColumns columns(const Ray& ray) const;
-  /// Where a ray meets the sea-level sphere from outside, the first time [m]; infinity where it does not.
+  /// The ray's stretch as far as there is air; ends before it begins where there is none.
+  Ray clipped(const Ray& ray) const;
+  /// Where a ray meets the sea-level sphere, the first time [m]: at once where it goes down from below; infinity where it does not.
   double distance_to_sea_level_m(const Ray& ray) const;
   /// Optical depth of columns, at a wavelength: molecules and ozone; haze at its own ratio to 550 nm.
   static double optical_depth(const AirColumns& columns, double wavelength_nm, double haze_ratio = 1);

@@ -1,5 +1,8 @@
 #include "src/integrator/volume_path.h"
 
+#include <cmath>
+#include <limits>
+
 #include "media/medium/scatterer.h"
 #include "media/tracking/collision_walk.h"
 #include "media/tracking/transmittance.h"
@@ -33,6 +36,9 @@ constexpr int most_splits = 4;
 constexpr float enough_for_first_sun_ray = 0.01f, enough_for_sun_ray = 0.1f, least_sun_rays = 0.02f;
 /// The coarse optical depth overlooks holes: this share of it is believed.
 constexpr float believed_depth = 0.7f;
+
+/// Dry air in the visible range (phase/optics/air.h says how little it changes over it).
+const phase::PhaseFunction by_air{phase::Rayleigh()};
 
 /// Where surfaces send them: about as wide as the glow around the sun in cloud and rain.
 const phase::PhaseFunction glow{phase::HenyeyGreenstein(0.95)};
@@ -101,7 +107,8 @@ VolumePath::VolumePath(const Scene& scene, long long max_bounces, SunReach sun_r
 
 Spectrum VolumePath::radiance(const media::Ray& camera_ray, const Wavelengths& wavelengths, const FirstNumbers& first,
                               Random& random, Work& work) const {
-  Sample sample{wavelengths, random, work, scene_.sun.light(wavelengths), {}};
+  Sample sample{wavelengths, random, work, scene_.sun.light(wavelengths), {}, {}};
+  if (scene_.air) sample.air.emplace(wavelengths);
   Path path;
   path.ray = camera_ray;
   const auto hit = scene_.surfaces.nearest_hit(path.ray);
@@ -117,17 +124,17 @@ Spectrum VolumePath::radiance(const media::Ray& camera_ray, const Wavelengths& w
   if (depth > 0 && depth < most_forced_depth) {
     Path straight = path;
     straight.weight *= static_cast<float>(std::exp(-depth));
-    if (pass(straight, hit, sample)) follow(straight, sample);
+    if (advance(straight, nullptr, hit, sample)) follow(straight, sample);
     const auto scattered = static_cast<float>(-std::expm1(-depth));
     path.weight *= scattered;
     // Before the sky a medium is what is looked at, thin as it may be.
     if (!hit) path.seen_weight = scattered;
     auto walk = media::CollisionWalk::forced(*scene_.medium, path.ray, wavelengths, random, depth, first.collision);
-    if (advance(path, walk, hit, sample)) follow(path, sample);
+    if (advance(path, &walk, hit, sample)) follow(path, sample);
     return sample.total;
   }
   media::CollisionWalk walk(*scene_.medium, path.ray, wavelengths, random);
-  if (advance(path, walk, hit, sample)) follow(path, sample);
+  if (advance(path, &walk, hit, sample)) follow(path, sample);
   return sample.total;
 }
 
@@ -149,21 +156,52 @@ void VolumePath::follow(Path& path, Sample& sample) const {
       continue;
     }
     media::CollisionWalk walk(*scene_.medium, path.ray, sample.wavelengths, sample.random);
-    goes_on = advance(path, walk, hit, sample);
+    goes_on = advance(path, &walk, hit, sample);
   }
 }
 
-bool VolumePath::advance(Path& path, media::CollisionWalk& walk, const std::optional<Hit>& hit, Sample& sample) const {
+bool VolumePath::advance(Path& path, media::CollisionWalk* walk, const std::optional<Hit>& hit, Sample& sample) const {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  std::optional<media::AirCollision> in_air;
+  double ground_m = never;
+  if (scene_.air) {
+    if (!hit) ground_m = scene_.air->distance_to_sea_level_m(path.ray);
+    media::Ray stretch = path.ray;
+    stretch.farthest_m = std::min(stretch.farthest_m, ground_m);
+    in_air = media::air_collision_at(*scene_.air, stretch, *sample.air, -std::log1p(-sample.random.uniform_double()));
+  }
+  const double air_m = in_air ? in_air->distance_m : ground_m;
   media::Collision collision;
-  while (walk.next(collision)) {
+  while (walk && walk->next(collision) && collision.distance_m < air_m) {
     ++sample.work.tentative_collisions;
     if (sample.random.uniform() * collision.majorant_per_m < collision.extinction_per_m[0]) {
       if (path.bounces++ == max_bounces_) return false;
+      if (scene_.air) dim_by_air(path, collision.distance_m, sample);
       return scatter(path, collision, sample);
     }
     path.pass_null_collision(collision);
   }
+  if (in_air) return path.bounces++ != max_bounces_ && scatter_in_air(path, *in_air, sample);
+  if (ground_m < never) return false;
+  if (scene_.air) dim_by_air(path, path.ray.farthest_m, sample);
   return pass(path, hit, sample);
+}
+
+void VolumePath::dim_by_air(Path& path, double distance_m, const Sample& sample) const {
+  media::Ray way = path.ray;
+  way.farthest_m = distance_m;
+  const Spectrum depth = sample.air->optical_depth(scene_.air->columns(way));
+  const Spectrum ratio = media::transmittance_over_first(depth);
+  path.weight *= ratio;
+  path.density *= ratio;
+}
+
+bool VolumePath::scatter_in_air(Path& path, const media::AirCollision& collision, Sample& sample) const {
+  ++sample.work.scatterings;
+  const Spectrum ratio = media::transmittance_over_first(collision.optical_depth) * (1 / collision.extinction_per_m[0]);
+  path.weight *= ratio * collision.scattering_per_m;
+  path.density *= ratio * collision.extinction_per_m;
+  return turn(path, path.ray.at(collision.distance_m), by_air, sample);
 }
 
 bool VolumePath::pass(Path& path, const std::optional<Hit>& hit, Sample& sample) const {
@@ -183,13 +221,18 @@ Spectrum VolumePath::escaped(const Path& path, const Sample& sample) const {
 
 bool VolumePath::scatter(Path& path, const media::Collision& collision, Sample& sample) const {
   const Wavelengths& wavelengths = sample.wavelengths;
-  Random& random = sample.random;
   ++sample.work.scatterings;
-  const media::Scatterer scatterer = scene_.medium->scatterer(collision, wavelengths, random.uniform());
+  const media::Scatterer scatterer = scene_.medium->scatterer(collision, wavelengths, sample.random.uniform());
   const phase::PhaseFunction& function = scatterer.phase;
   const Spectrum& extinction = collision.component_extinction_per_m;
   path.weight *= scatterer.albedo * extinction / extinction[0];
   path.density *= extinction / extinction[0];
+  return turn(path, collision.position_m, function, sample);
+}
+
+bool VolumePath::turn(Path& path, const Vec3& position_m, const phase::PhaseFunction& function, Sample& sample) const {
+  const Wavelengths& wavelengths = sample.wavelengths;
+  Random& random = sample.random;
   const Vec3 incoming = path.ray.direction;
   const Sun& sun = scene_.sun;
 
@@ -210,7 +253,7 @@ bool VolumePath::scatter(Path& path, const media::Collision& collision, Sample& 
   // 0 for rays to the sun that are not sent; what the others stand for.
   const auto sun_ray_weight = [&](const Spectrum& value) -> float {
     const float mean_or_more = 4 * static_cast<float>(pi) * value.max();
-    const float transmittance = std::exp(-believed_depth * sun_reach_.optical_depth(collision.position_m));
+    const float transmittance = std::exp(-believed_depth * sun_reach_.optical_depth(position_m));
     const float expected = path.weight.mean() / (path.density.mean() * path.seen_weight) * mean_or_more * transmittance;
     const float enough = path.bounces > 1 ? enough_for_sun_ray : enough_for_first_sun_ray;
     const float probability = std::clamp(expected / enough, least_sun_rays, 1.f);
@@ -223,20 +266,20 @@ bool VolumePath::scatter(Path& path, const media::Collision& collision, Sample& 
       const Spectrum value = function.sunlit_value(incoming, sun.to_centre(), wavelengths);
       if (const float weight = sun_ray_weight(value); weight > 0)
         sample.total += path.contribution(value * sample.sunlight.irradiance_w_per_m2_nm *
-                                          sun_transmittance(collision.position_m, {}, to_sun, sample)) * weight;
+                                          sun_transmittance(position_m, {}, to_sun, sample)) * weight;
     } else {
       const Spectrum value = function.value(incoming, to_sun, wavelengths);
       const double asked = path.density.mean() * sun.density_per_sr(to_sun);
       const double found = (path.density * density(to_sun, value).all).mean();
       if (const float weight = sun_ray_weight(value); weight > 0)
         sample.total += path.contribution(value * sun.radiance(to_sun, sample.sunlight) *
-                                          sun_transmittance(collision.position_m, {}, to_sun, sample)) *
+                                          sun_transmittance(position_m, {}, to_sun, sample)) *
                         static_cast<float>(weight * path.density.mean() / (asked + found));
     }
   }
 
   if (function.parts_wavelengths() && !path.is_alone()) {
-    part(path, collision, function, sample);
+    part(path, position_m, function, sample);
     return false;
   }
   const auto leave = [&](Path& leaving, const Vec3& outgoing, const Spectrum& value, const Spectrum& own) {
@@ -252,7 +295,7 @@ bool VolumePath::scatter(Path& path, const media::Collision& collision, Sample& 
     leaving.density *= densities.all / densities.all[0];
     // Of all wavelengths alike: it decides the next share, which must not depend on which of them leads.
     leaving.promise = promise(to_sun_share, densities.to_sun.mean());
-    leaving.leave(collision.position_m, outgoing);
+    leaving.leave(position_m, outgoing);
   };
   if (to_sun_share > 0 && random.uniform() < to_sun_share) {
     Path second = path;
@@ -272,21 +315,22 @@ bool VolumePath::scatter(Path& path, const media::Collision& collision, Sample& 
   return true;
 }
 
-void VolumePath::part(const Path& path, const media::Collision& collision, const phase::PhaseFunction& function, Sample& sample) const {
+void VolumePath::part(const Path& path, const Vec3& position_m, const phase::PhaseFunction& function, Sample& sample) const {
   const Spectrum share = path.weight / (path.density.mean() * wavelength_count);
   for (int j = 0; j < wavelength_count; ++j) {
     if (!(share[j] > 0)) continue;
     // The wavelength changes places with the hero, and back in what it brings.
     Wavelengths wavelengths = sample.wavelengths;
     std::swap(wavelengths.nm[0], wavelengths.nm[static_cast<std::size_t>(j)]);
-    Sample alone{wavelengths, sample.random, sample.work, sample.sunlight.with_first(j), {}};
+    Sample alone{wavelengths, sample.random, sample.work, sample.sunlight.with_first(j), {}, {}};
+    if (sample.air) alone.air = sample.air->with_first(j);
     Path one = path;
     const phase::Draw draw = function.draw(path.ray.direction, wavelengths, sample.random);
     one.density = {1, 0, 0, 0};
     one.weight = draw.value_per_sr * share[j];
     one.sun_share = 0;
     one.promise = 1;
-    one.leave(collision.position_m, draw.outgoing);
+    one.leave(position_m, draw.outgoing);
     follow(one, alone);
     std::swap(alone.total[0], alone.total[j]);
     sample.total += alone.total;
@@ -347,6 +391,11 @@ Spectrum VolumePath::sun_transmittance(const Vec3& position_m, const Departure& 
   ++sample.work.sun_rays;
   const media::Ray ray{position_m, to_sun};
   if (scene_.surfaces.is_blocked(ray, departure)) return {};
+  if (scene_.air) {
+    const Spectrum through_air = media::transmittance(sample.air->optical_depth(scene_.air->columns(ray)));
+    if (!(through_air.max() > 1e-30f)) return {};  // the sun is behind the planet
+    return through_air * media::ratio_transmittance(*scene_.medium, ray, sample.wavelengths, sample.random);
+  }
   return media::ratio_transmittance(*scene_.medium, ray, sample.wavelengths, sample.random);
 }
 

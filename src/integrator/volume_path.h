@@ -10,6 +10,7 @@
 
 #include <optional>
 
+#include "media/air/air_walk.h"
 #include "media/tracking/collision_walk.h"
 #include "phase/base/random.h"
 #include "phase/function/phase_function.h"
@@ -44,20 +45,28 @@ class VolumePath : public Integrator {
     Random& random;
     Work& work;
     SunLight sunlight;
+    std::optional<media::AirOptics> air;  ///< where there is air
     Spectrum total;  ///< the estimate so far
   };
   /// Follows a path until it ends.
   void follow(Path& path, Sample& sample) const;
-  /// Follows a path along its ray to the next collision or else to `hit` or out of the scene. False where it ends.
-  bool advance(Path& path, media::CollisionWalk& walk, const std::optional<Hit>& hit, Sample& sample) const;
+  /// Follows a path along its ray to the next collision or else to `hit` or out of the scene; the walk may be none where the media are known
+  /// to let it pass. False where it ends.
+  bool advance(Path& path, media::CollisionWalk* walk, const std::optional<Hit>& hit, Sample& sample) const;
+  /// What air takes from a path on its way to a distance along its ray.
+  void dim_by_air(Path& path, double distance_m, const Sample& sample) const;
+  /// Scatters at a place in the air. False where it ends.
+  bool scatter_in_air(Path& path, const media::AirCollision& collision, Sample& sample) const;
   /// What follows where the medium let the path through. False where it ends.
   bool pass(Path& path, const std::optional<Hit>& hit, Sample& sample) const;
   /// Light that arrives where the path has left the scene.
   Spectrum escaped(const Path& path, const Sample& sample) const;
-  /// Scatters in the medium: adds sunlight, turns the path. False where it ends.
+  /// Scatters in the medium. False where it ends.
   bool scatter(Path& path, const media::Collision& collision, Sample& sample) const;
+  /// Scatters by a phase function: adds sunlight, turns the path. False where it ends.
+  bool turn(Path& path, const Vec3& position_m, const phase::PhaseFunction& function, Sample& sample) const;
   /// Goes on from a scattering with each wavelength by itself.
-  void part(const Path& path, const media::Collision& collision, const phase::PhaseFunction& function, Sample& sample) const;
+  void part(const Path& path, const Vec3& position_m, const phase::PhaseFunction& function, Sample& sample) const;
   /// Reflects from a surface, or goes through it: adds sunlight, turns the path. False where it ends.
   bool meet(Path& path, const Hit& hit, Sample& sample) const;
   void reflect(Path& path, const Hit& hit, const Matte& material, Sample& sample) const;

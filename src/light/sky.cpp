@@ -3,12 +3,17 @@
 namespace arcus::render {
 
 void list_keys(Keys& keys, SkySettings& sky) {
-  keys.choice("type", sky.type, {"none", "constant"}, "what surrounds the scene");
+  keys.choice("type", sky.type, {"none", "constant", "clear"}, "what surrounds the scene; clear: the air of a round planet, which scatters the sun's light, dims all that is seen through it, and ends on black ground at z = 0 where no surface is");
   if (keys.only_if(sky.type == "constant", "type = constant")) {
     keys.number("radiance", sky.radiance, at_least(0), "the same in all directions, at 550 nm [W m-2 sr-1 nm-1]");
     keys.choice("spectrum", sky.spectrum, {"flat", "sun", "rayleigh"},
                 "flat: the same at every wavelength; sun: in proportion to the sun's, as light from grey clouds; rayleigh: the "
                 "sun's times the inverse fourth power of the wavelength, a plain blue");
+  }
+  if (keys.only_if(sky.type == "clear", "type = clear")) {
+    keys.number("pressure_hpa", sky.air.pressure_hpa, between(0, 2000), "at z = 0: how much air there is");
+    keys.number("ozone_dobson_units", sky.air.ozone_dobson_units, between(0, 1000), "ozone between 10 and 40 km: 250 in the tropics, 300 to 450 elsewhere; it keeps the dusk blue");
+    keys.number("planet_radius_m", sky.air.planet_radius_m, between(1e5, 1e12), "the planet's centre is so far below the origin; very large: flat layers");
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "media/air/atmosphere.h"
 #include "phase/base/curve.h"
 #include "phase/base/spectrum.h"
 #include "phase/base/vec3.h"
@@ -12,9 +13,10 @@
 namespace arcus::render {
 
 struct SkySettings {
-  std::string type = "none";  ///< none | constant
+  std::string type = "none";  ///< none | constant | clear
   double radiance = 0.1;      ///< of the constant sky, at 550 nm and with a flat spectrum everywhere [W m-2 sr-1 nm-1]
   std::string spectrum = "flat";  ///< flat | sun: in proportion to the sun's | rayleigh: that times λ⁻⁴
+  media::AirSettings air;     ///< of the clear sky
 };
 void list_keys(Keys& keys, SkySettings& sky);
 

@@ -198,11 +198,15 @@ Scene build_scene(const SceneSettings& settings, const BuildOptions& options) {
     if (!is_shown_as_drops(medium, settings)) add_medium(medium, settings, options, made, components);
   auto medium = std::make_unique<const media::Medium>(std::move(components));
   report_depth(*medium, options);
+  if (settings.sky.type == "clear" && media::Atmosphere(settings.sky.air).height_m(settings.camera.position_m) < 0)
+    throw bad_input(settings.path + ": camera.position_m", "a place below sea level", "a height above 0 over the round planet expected: the air of a clear sky ends there",
+                    "z = 0 is sea level under the origin; far from it the planet curves away below");
   const Curve irradiance = sun_irradiance(settings.sun, settings.folder);
   return Scene{.medium = std::move(medium),
                .sun = Sun(settings.sun, irradiance),
                .sky = Sky(settings.sky, irradiance),
                .surfaces = make_surfaces(settings, options),
+               .air = settings.sky.type == "clear" ? std::optional(media::Atmosphere(settings.sky.air)) : std::nullopt,
                .camera = make_camera(settings.camera)};
 }
 

@@ -2,7 +2,9 @@
 // What a path meets: built once from the settings, then never changed.
 
 #include <memory>
+#include <optional>
 
+#include "media/air/atmosphere.h"
 #include "media/medium/medium.h"
 #include "src/camera/camera.h"
 #include "src/light/sky.h"
@@ -16,6 +18,7 @@ struct Scene {
   Sun sun;
   Sky sky;
   Surfaces surfaces;
+  std::optional<media::Atmosphere> air{};  ///< of a clear sky
   std::unique_ptr<const Camera> camera;
 };
 

@@ -269,6 +269,11 @@ for line in 'aspect_ratio = 1e-4' 'aspect_ratio = 1e4' 'upper_pyramid = { height
 done
 rm -f ice.nc
 
+# The clear sky.
+expect 2 'camera.position_m.*below sea level' "$ARCUS" render a.toml --set sky.type=clear --set camera.position_m=[0,0,-3]
+expect 2 "'whitted' and a clear sky" "$ARCUS" render a.toml --set sky.type=clear --set render.integrator=whitted
+expect 2 'ozone_dobson_units' "$ARCUS" render a.toml --set sky.type=clear --set sky.ozone_dobson_units=-1
+
 # The sky of crystals.
 printf 'type = "crystal"\nhabit = "plate"\nwavelength_nm = 550\nrays_million = 0.01\nmap_step_deg = 5\n' >plates.toml
 printf 'type = "hg"\n' >hg.toml

@@ -1,0 +1,42 @@
+#pragma once
+// Air as light meets it: its optical depth at a path's wavelengths, and places where the first of them is scattered or absorbed. Both go by quadrature
+// of densities alone, so there are no majorants and no null collisions.
+
+#include <optional>
+
+#include "media/air/atmosphere.h"
+#include "phase/base/spectrum.h"
+#include "phase/base/wavelengths.h"
+
+namespace arcus::media {
+
+/// Cross sections at four wavelengths.
+struct AirOptics {
+  explicit AirOptics(const Wavelengths& wavelengths);
+  /// Of columns; of densities: extinction [1/m].
+  Spectrum optical_depth(const AirColumns& columns) const;
+  /// What of that is scattering.
+  Spectrum scattering(const AirColumns& columns) const;
+  /// The same where the first wavelength has changed places with another.
+  AirOptics with_first(int j) const;
+
+  double scattering_m2[wavelength_count], ozone_m2[wavelength_count];
+};
+
+/// exp(−depth) at each wavelength.
+Spectrum transmittance(const Spectrum& optical_depth);
+/// The same over that at the first wavelength.
+Spectrum transmittance_over_first(const Spectrum& optical_depth);
+
+/// Where light is scattered or absorbed by air.
+struct AirCollision {
+  double distance_m = 0;       ///< from the ray's origin
+  Spectrum optical_depth;      ///< from the stretch's begin to there
+  Spectrum extinction_per_m, scattering_per_m;
+};
+
+/// The place along the ray's stretch where the optical depth at the first wavelength is `depth` > 0; nothing where the whole stretch has less. With
+/// an exponentially distributed depth that is where a path of this wavelength collides.
+std::optional<AirCollision> air_collision_at(const Atmosphere& air, const Ray& ray, const AirOptics& optics, double depth);
+
+}  // namespace arcus::media

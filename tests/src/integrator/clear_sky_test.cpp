@@ -1,0 +1,116 @@
+// The traced clear sky against tests/published/rayleigh_sky.csv: flat layers of molecules over black and over white ground, every radiance within 1 %
+// and three standard errors. Minutes of work: labelled slow.
+
+#include <gtest/gtest.h>
+
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <iostream>
+#include <optional>
+
+#include "media/air/air_walk.h"
+#include "phase/base/curve.h"
+#include "phase/base/units.h"
+#include "src/integrator/volume_path.h"
+#include "tests/statistics/seed.h"
+#include "tests/statistics/students_t.h"
+
+namespace arcus::render {
+namespace {
+
+using statistics::Moments;
+
+constexpr double wavelength_nm = 550;
+
+/// All four wavelengths are one, so that the layer's optical depth is.
+Wavelengths one_wavelength() {
+  Wavelengths wavelengths;
+  wavelengths.nm = {wavelength_nm, wavelength_nm, wavelength_nm, wavelength_nm};
+  return wavelengths;
+}
+
+/// As much air as makes the optical depth, over a planet so large that layers are flat.
+media::Atmosphere flat_air(double optical_depth) {
+  media::AirSettings settings;
+  settings.planet_radius_m = 1e11;
+  settings.ozone_dobson_units = 0;
+  const auto depth = [&] { return media::Atmosphere::optical_depth(media::Atmosphere(settings).columns({{0, 0, 0}, {0, 0, 1}}), wavelength_nm); };
+  settings.pressure_hpa *= optical_depth / depth();
+  EXPECT_NEAR(depth(), optical_depth, 1e-9);
+  return media::Atmosphere(settings);
+}
+
+Scene scene_of(double optical_depth, double ground_albedo, double sun_cosine) {
+  SurfaceParts parts;
+  if (ground_albedo > 0) {
+    parts.planes.push_back({0, 0});
+    parts.materials.push_back(Material(Matte(ground_albedo)));
+  }
+  const SunSettings sun{.azimuth_deg = 0, .elevation_deg = degrees(std::asin(sun_cosine)), .spectrum = "equal_energy"};
+  return Scene{.medium = std::make_unique<media::Medium>(std::vector<media::Component>{}),
+               .sun = Sun(sun, sun_irradiance(sun, "")),
+               .sky = Sky({}, Curve({550}, {1}, "")),
+               .surfaces = Surfaces(std::move(parts)),
+               .air = flat_air(optical_depth),
+               .camera = nullptr};
+}
+
+media::Ray ray_of(bool looks_down, double view_cosine, double azimuth_deg, double top_m) {
+  const double elevation_deg = degrees(std::asin(view_cosine));
+  return {Vec3(0, 0, looks_down ? top_m : 1e-3), direction_of(azimuth_deg, looks_down ? -elevation_deg : elevation_deg)};
+}
+
+/// number: of the question, so that each has its own random numbers.
+Moments traced(const Scene& scene, const media::Ray& ray, std::size_t number) {
+  const VolumePath integrator(scene, 1000000);
+  constexpr int tasks = 64;
+  const int samples = static_cast<int>(300 * statistics::test_effort());
+  std::vector<double> means(tasks);
+  tbb::parallel_for(0, tasks, [&](int task) {
+    double sum = 0;
+    for (int i = 0; i < samples; ++i) {
+      Random random(statistics::test_seed(), static_cast<std::uint64_t>(number) * tasks + static_cast<std::uint64_t>(task), static_cast<std::uint32_t>(i));
+      sum += integrator.radiance(ray, one_wavelength(), {0.5, 0.5, 0.5, random.uniform_double(), random.uniform_double()}, random).mean();
+    }
+    means[static_cast<std::size_t>(task)] = sum / samples;
+  });
+  Moments moments;
+  for (const double mean : means) moments.add(mean);
+  return moments;
+}
+
+}  // namespace
+
+TEST(ClearSky, RadiancesOfFlatLayersMeetTheReference) {
+  const Columns table = read_columns_file(std::string(PUBLISHED_DIR) + "/rayleigh_sky.csv");
+  Moments deviations;
+  const std::size_t rows = table.columns[0].size();
+  ASSERT_GT(rows, 150u);
+  for (std::size_t i = 0; i < rows; ++i) {
+    const auto column = [&](const char* name) { return table.named(name)[i]; };
+    const double sun_cosine = column("sun_cosine"), view = column("view_cosine"), expected = column("radiance_per_sr");
+    const bool looks_down = column("looks_down") > 0;
+    if (!looks_down && view == sun_cosine && (view == 1 || column("azimuth_deg") == 0)) continue;  // straight into the sun
+    const Scene scene = scene_of(column("optical_depth"), column("ground_albedo"), sun_cosine);
+    const Moments found = traced(scene, ray_of(looks_down, view, column("azimuth_deg"), scene.air->settings().top_m), i);
+    deviations.add((found.mean() - expected) / found.standard_error());
+    EXPECT_NEAR(found.mean(), expected, 0.01 * expected + 3 * found.standard_error())
+        << "depth " << column("optical_depth") << " albedo " << column("ground_albedo") << " sun " << sun_cosine << (looks_down ? " down " : " up ") << view << " azimuth "
+        << column("azimuth_deg") << ": " << found.mean() << " +- " << found.standard_error() << ", reference " << expected;
+  }
+  // All of them together say more than each.
+  EXPECT_NEAR(deviations.mean(), 0, 0.3) << "in standard errors";
+  std::cout << rows << " radiances; mean deviation " << deviations.mean() << " standard errors\n";
+}
+
+TEST(ClearSky, AnotherAmountOfAirWouldBeSeen) {
+  Moments ratios;
+  for (std::size_t i = 0; i < 20; ++i) {  // a twentieth more than the reference has
+    const auto seen = [&](double depth, std::size_t number) { return traced(scene_of(depth, 0, 0.6), ray_of(false, 1, 0, 0), number).mean(); };
+    ratios.add(seen(0.525, 2 * i) / seen(0.5, 2 * i + 1));
+  }
+  EXPECT_GT(ratios.mean() - 1, 3 * ratios.standard_error());
+}
+
+}  // namespace arcus::render
