@@ -133,9 +133,34 @@ Spectrum VolumePath::radiance(const media::Ray& camera_ray, const Wavelengths& w
     if (advance(path, &walk, hit, sample)) follow(path, sample);
     return sample.total;
   }
+  if (depth == 0 && scene_.air && split_in_air(path, hit, first.collision, sample)) return sample.total;
   media::CollisionWalk walk(*scene_.medium, path.ray, wavelengths, random);
   if (advance(path, &walk, hit, sample)) follow(path, sample);
   return sample.total;
+}
+
+bool VolumePath::split_in_air(Path& path, const std::optional<Hit>& hit, double u, Sample& sample) const {
+  const double ground_m = hit ? path.ray.farthest_m : scene_.air->distance_to_sea_level_m(path.ray);
+  media::Ray stretch = path.ray;
+  stretch.farthest_m = std::min(stretch.farthest_m, ground_m);
+  const Spectrum whole = sample.air->optical_depth(scene_.air->columns(stretch));
+  if (!(whole[0] > 0 && whole.max() < most_forced_depth)) return false;
+
+  if (hit || ground_m == std::numeric_limits<double>::infinity()) {
+    Path straight = path;
+    straight.weight *= media::transmittance(whole);
+    if (pass(straight, hit, sample)) follow(straight, sample);
+  }
+  // The collision's density at each wavelength is relative to that wavelength's own share of rays that collide.
+  Spectrum share;
+  for (int j = 0; j < wavelength_count; ++j) share[j] = -std::expm1(-whole[j]);
+  const auto collision = media::air_collision_at(*scene_.air, stretch, *sample.air, -std::log1p(-u * static_cast<double>(share[0])));
+  if (!collision || path.bounces++ == max_bounces_) return true;
+  path.weight *= share[0];
+  path.density *= Spectrum::filled(share[0]) / share;
+  if (!hit) path.seen_weight = share[0];
+  if (scatter_in_air(path, *collision, sample)) follow(path, sample);
+  return true;
 }
 
 void VolumePath::follow(Path& path, Sample& sample) const {

@@ -53,6 +53,9 @@ class VolumePath : public Integrator {
   /// Follows a path along its ray to the next collision or else to `hit` or out of the scene; the walk may be none where the media are known
   /// to let it pass. False where it ends.
   bool advance(Path& path, media::CollisionWalk* walk, const std::optional<Hit>& hit, Sample& sample) const;
+  /// Splits a camera ray through thin air alone into the share that meets nothing and the rest, which is scattered at a place that `u` in [0, 1)
+  /// gives. False, and nothing done, where the air is thick.
+  bool split_in_air(Path& path, const std::optional<Hit>& hit, double u, Sample& sample) const;
   /// What air takes from a path on its way to a distance along its ray.
   void dim_by_air(Path& path, double distance_m, const Sample& sample) const;
   /// Scatters at a place in the air. False where it ends.
