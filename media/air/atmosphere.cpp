@@ -84,12 +84,17 @@ AirColumns Atmosphere::columns(const Ray& ray) const {
   // Panels end where ozone has its corners, and before molecules or haze have fallen to less than e⁻³ in one: so eight points are good to a millionth.
   static constexpr std::array<double, 11> layers{500, 1500, 3000, 5000, 7500, 10000, 25000, 40000, 65000, 90000, 110000};
   constexpr std::size_t layers_of_haze = 5;
+  const std::size_t first_layer = haze_per_m_ > 0 ? 0 : layers_of_haze;
   std::array<double, 2 * layers.size() + 3> ends;
   std::size_t count = 0;
   const auto add = [&](double s) {
     if (s > begin && s < end) ends[count++] = s;
   };
-  for (std::size_t layer = haze_per_m_ > 0 ? 0 : layers_of_haze; layer < layers.size(); ++layer) {
+  // A short stretch that climbs or falls all along is as a rule in one of them.
+  const bool turns = flight.to_lowest_m > begin && flight.to_lowest_m < end;
+  const auto layer_of = [&](double s) { return std::upper_bound(layers.begin() + first_layer, layers.end(), flight.height_m(s)); };
+  const bool is_in_one = !turns && layer_of(begin) == layer_of(end);
+  for (std::size_t layer = is_in_one ? layers.size() : first_layer; layer < layers.size(); ++layer) {
     const double height = layers[layer];
     const double half_below = flight.half_below_m(height);
     if (half_below == 0) continue;

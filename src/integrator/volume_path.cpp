@@ -188,16 +188,25 @@ void VolumePath::follow(Path& path, Sample& sample) const {
 bool VolumePath::advance(Path& path, media::CollisionWalk* walk, const std::optional<Hit>& hit, Sample& sample) const {
   constexpr double never = std::numeric_limits<double>::infinity();
   std::optional<media::AirCollision> in_air;
-  double ground_m = never;
+  double air_m = never, ground_m = never, air_depth = 0;
+  // Up to here there is certainly no collision with air, which is nowhere denser than at sea level: within clouds paths seldom get so far.
+  double safe_m = never;
   if (scene_.air) {
     if (!hit) ground_m = scene_.air->distance_to_sea_level_m(path.ray);
+    air_depth = -std::log1p(-sample.random.uniform_double());
+    safe_m = std::min(ground_m, air_depth / static_cast<double>(sample.air->optical_depth(scene_.air->density(0))[0]));
+  }
+  const auto meet_air = [&] {
     media::Ray stretch = path.ray;
     stretch.farthest_m = std::min(stretch.farthest_m, ground_m);
-    in_air = media::air_collision_at(*scene_.air, stretch, *sample.air, -std::log1p(-sample.random.uniform_double()));
-  }
-  const double air_m = in_air ? in_air->distance_m : ground_m;
+    in_air = media::air_collision_at(*scene_.air, stretch, *sample.air, air_depth);
+    air_m = in_air ? in_air->distance_m : ground_m;
+    safe_m = never;
+  };
   media::Collision collision;
-  while (walk && walk->next(collision) && collision.distance_m < air_m) {
+  while (walk && walk->next(collision)) {
+    if (collision.distance_m > safe_m) meet_air();
+    if (collision.distance_m >= air_m) break;
     ++sample.work.tentative_collisions;
     if (sample.random.uniform() * collision.majorant_per_m < collision.extinction_per_m[0]) {
       if (path.bounces++ == max_bounces_) return false;
@@ -206,6 +215,7 @@ bool VolumePath::advance(Path& path, media::CollisionWalk* walk, const std::opti
     }
     path.pass_null_collision(collision);
   }
+  if (safe_m < never) meet_air();
   if (in_air) return path.bounces++ != max_bounces_ && scatter_in_air(path, *in_air, sample);
   if (ground_m < never) return false;
   if (scene_.air) dim_by_air(path, path.ray.farthest_m, sample);
