@@ -1,10 +1,10 @@
 // Slurm: tasks of a farm as a job array, and a merge that waits for them.
 
-#include <cctype>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <thread>
+#include <optional>
+#include <sstream>
 
 #include <nlohmann/json.hpp>
 
@@ -76,14 +76,14 @@ class SlurmEngine : public Engine {
 
   bool is_running() override {
     const std::string jobs = handed_.array + (handed_.merge.empty() ? "" : "," + handed_.merge);
-    const Said queue = run_program({"squeue", "--noheader", "--jobs=" + jobs, "--format=%i %T"});
+    const Said queue = run_program({"squeue", "--noheader", "--jobs=" + jobs, "--format=%A %F %T %r"});
     const bool is_unknown = queue.text.find("Invalid job id") != std::string::npos;
     if (queue.code != 0 && !is_unknown) {
       if (!is_silent_) say_("Slurm does not answer; waiting for it: " + queue.text);
       return is_silent_ = true;
     }
     is_silent_ = false;
-    return !queue.text.empty() && std::isdigit(static_cast<unsigned char>(queue.text.front())) != 0;
+    return is_under_way(queue.text);
   }
 
   void leave() override {
@@ -91,6 +91,35 @@ class SlurmEngine : public Engine {
   }
 
  private:
+  /// By lines of squeue: job, job of its array, state, reason. A merge that has waited for a minute since the tasks are done is not waited for: the
+  /// queue is full, or it is held, and merging here does no harm.
+  bool is_under_way(const std::string& queue) {
+    using Clock = std::chrono::steady_clock;
+    bool has_tasks = false, has_merge = false, is_merging = false, is_held = false, has_others = false;
+    std::istringstream lines(queue);
+    std::string job, array, state, reason;
+    while (lines >> job >> array >> state && std::getline(lines, reason)) {
+      if (array == handed_.array) {
+        has_tasks = true;
+        (reason.find("held") != std::string::npos || reason.find("Held") != std::string::npos ? is_held : has_others) = true;
+      } else if (job == handed_.merge) {
+        has_merge = true;
+        is_merging = state != "PENDING";
+      }
+    }
+    if (is_held && !has_others && !said_held_) {
+      say_("Slurm holds what is left of job " + handed_.array + ": `squeue -j " + handed_.array + "` says why, `scontrol release " + handed_.array + "` lets it go on");
+      said_held_ = true;
+    }
+    if (has_tasks || is_merging) {
+      tasks_done_.reset();
+      return true;
+    }
+    if (!has_merge) return false;
+    if (!tasks_done_) tasks_done_ = Clock::now();
+    return Clock::now() - *tasks_done_ < std::chrono::minutes(1);
+  }
+
   static std::string record_path(const farm::FarmJob& job) { return (std::filesystem::path(job.folder) / "slurm.json").string(); }
 
   void write_record(const farm::FarmJob& job) const {
@@ -113,7 +142,8 @@ class SlurmEngine : public Engine {
   Say say_;
   long long most_tasks_ = 0;
   Handed handed_;
-  bool is_silent_ = false;
+  bool is_silent_ = false, said_held_ = false;
+  std::optional<std::chrono::steady_clock::time_point> tasks_done_;  ///< since when only a merge that waits is left
 };
 
 }  // namespace

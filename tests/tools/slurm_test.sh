@@ -38,7 +38,7 @@ is_checkpointed() { [ -n "$(find "$1" -name '*.checkpoint')" ]; }
 begin() {
   local folder=$1
   shift
-  "$ARCUS" farm "$scene" --out "$folder" --engine slurm --tiles 7 --tiles-per-task 1 --checkpoint-seconds 0.2 "$@" >"$folder.txt" 2>&1 &
+  timeout 300 "$ARCUS" farm "$scene" --out "$folder" --engine slurm --tiles 7 --tiles-per-task 1 --checkpoint-seconds 0.2 "$@" >"$folder.txt" 2>&1 &
   farm=$!
 }
 # end FOLDER CODE: it ends with that.
@@ -66,6 +66,7 @@ channels = ["rgb", "variance"]
 vdb = "box.vdb"
 SCENE
 sed 's/3000/100/' long.toml >short.toml
+sed 's/3000/20000/' long.toml >longest.toml
 must "$ARCUS" render long.toml -o whole_long.toml.exr --no-png
 must "$ARCUS" render short.toml -o whole_short.toml.exr --no-png
 scene=short.toml
@@ -131,10 +132,13 @@ is_whole_picture lost
 slurm node "$cluster" 1
 check 'the node does not come back' until_true 30 sh -c '[ "$(sinfo -h -N -n n1 -o %t)" = idle ]'
 
-# The controller restarted while tasks run. What it has not saved yet, it forgets: hence the pause.
+# The controller restarted while tasks run. What it has not saved yet, which takes it up to eight seconds, it forgets, and then gives up the node.
+scene=longest.toml
+must "$ARCUS" render longest.toml -o whole_longest.toml.exr --no-png
 begin controller
-check 'no tile is made' until_true 60 has_tiles controller 1
-sleep 6
+check 'no worker starts' until_true 60 has_worker controller
+sleep 10
+check 'tasks are too short to be met' test ! -e controller/tile_6_of_7.tile
 kill -9 "$(cat "$cluster/slurmctld.pid")"
 sleep 2
 slurm controller "$cluster"
