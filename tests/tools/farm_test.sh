@@ -4,25 +4,6 @@
 ARCUS=$1
 source "$(dirname "${BASH_SOURCE[0]}")/shell_kit.sh"
 
-check() {
-  local what=$1
-  shift
-  checks=$((checks + 1))
-  "$@" >"$work/.stdout" 2>"$work/.stderr" || complain "$what"
-}
-are_equal() { "$ARCUS" compare "$1" "$2" | grep -q 'pixels compared; equal'; }
-until_true() {
-  local end=$((SECONDS + $1))
-  shift
-  until "$@"; do
-    [ "$SECONDS" -lt "$end" ] || return 1
-    sleep 0.05
-  done
-}
-workers() { pgrep -f "^$ARCUS tile .*--out $1( |\$)"; }
-has_worker() { [ -n "$(workers "$1")" ]; }
-is_checkpointed() { [ -n "$(find "$1" -name '*.checkpoint')" ]; }
-
 must "$ARCUS" author box --optical-depth 1 --phase-type hg -o box.vdb
 printf '[render]\nsamples_per_pixel = 8\n[camera]\nresolution = [48, 32]\nposition_m = [0, -2000, 0]\n[film]\nchannels = ["rgb", "variance"]\n[[medium]]\nvdb = "box.vdb"\n' >s.toml
 must "$ARCUS" render s.toml -o whole.exr --no-png

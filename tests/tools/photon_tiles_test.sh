@@ -3,14 +3,6 @@
 ARCUS=$1
 source "$(dirname "${BASH_SOURCE[0]}")/shell_kit.sh"
 
-# check WHAT COMMAND...: the command succeeds; its own output is of no interest.
-check() {
-  local what=$1
-  shift
-  checks=$((checks + 1))
-  "$@" >"$work/.stdout" 2>"$work/.stderr" || complain "$what"
-}
-are_equal() { "$ARCUS" compare "$1" "$2" | grep -q 'pixels compared; equal'; }
 flip_bit() { printf "\\x$(printf %02x $(($(od -An -tu1 -j "$2" -N 1 "$1") ^ 4)))" | dd of="$1" bs=1 seek="$2" conv=notrunc status=none; }
 # ranges_in FILE: how many ranges its worker says that it has sent
 ranges_in() { grep -c '^photons, range' "$1"; }

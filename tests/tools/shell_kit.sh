@@ -34,6 +34,31 @@ must() {
   "$@" >"$work/.stdout" 2>"$work/.stderr" || complain "'$*' ended with $?"
 }
 
+# check WHAT COMMAND...: the command succeeds; its own output is of no interest.
+check() {
+  local what=$1
+  shift
+  checks=$((checks + 1))
+  "$@" >"$work/.stdout" 2>"$work/.stderr" || complain "$what"
+}
+
+are_equal() { "$ARCUS" compare "$1" "$2" | grep -q 'pixels compared; equal'; }
+
+# until_true SECONDS COMMAND...: tries a command until it succeeds.
+until_true() {
+  local end=$((SECONDS + $1))
+  shift
+  until "$@"; do
+    [ "$SECONDS" -lt "$end" ] || return 1
+    sleep 0.05
+  done
+}
+
+# Workers on a folder of tiles, by process id: those of `arcus tile`, not the shells that started them.
+workers() { pgrep -f "^$ARCUS tile .*--out $1( |\$)"; }
+has_worker() { [ -n "$(workers "$1")" ]; }
+is_checkpointed() { [ -n "$(find "$1" -name '*.checkpoint')" ]; }
+
 # absent FILE...: none of the files exists.
 absent() {
   checks=$((checks + 1))

@@ -12,27 +12,7 @@ slurm() { bash "$here/slurm_local.sh" "$@"; }
 cluster=$work/slurm
 trap 'slurm stop "$cluster"; cd /; sleep 0.5; rm -rf "$work"' EXIT
 
-check() {
-  local what=$1
-  shift
-  checks=$((checks + 1))
-  "$@" >"$work/.stdout" 2>"$work/.stderr" || complain "$what"
-}
-are_equal() { "$ARCUS" compare "$1" "$2" | grep -q 'pixels compared; equal'; }
-# until_true SECONDS COMMAND...
-until_true() {
-  local end=$((SECONDS + $1))
-  shift
-  until "$@"; do
-    [ "$SECONDS" -lt "$end" ] || return 1
-    sleep 0.1
-  done
-}
-# Workers of a folder, by process id: those of `arcus tile`, not the shells that started them.
-workers() { pgrep -f "^$ARCUS tile .*--out $1( |\$)"; }
-has_worker() { [ -n "$(workers "$1")" ]; }
 has_tiles() { [ "$(find "$1" -name 'tile_*.tile' | wc -l)" -ge "$2" ]; }
-is_checkpointed() { [ -n "$(find "$1" -name '*.checkpoint')" ]; }
 
 # begin FOLDER [OPTIONS]: a farm of seven tiles of the scene in the background, said into FOLDER.txt.
 begin() {

@@ -3,14 +3,6 @@
 ARCUS=$1
 source "$(dirname "${BASH_SOURCE[0]}")/shell_kit.sh"
 
-# check WHAT COMMAND...: the command succeeds; its own output is of no interest.
-check() {
-  local what=$1
-  shift
-  checks=$((checks + 1))
-  "$@" >"$work/.stdout" 2>"$work/.stderr" || complain "$what"
-}
-are_equal() { "$ARCUS" compare "$1" "$2" | grep -q 'pixels compared; equal'; }
 flip_last_byte() { printf '\x5a' | dd of="$1" bs=1 seek=$(($(stat -c %s "$1") - 2)) conv=notrunc status=none; }
 
 must "$ARCUS" author box --optical-depth 1 --phase-type hg -o box.vdb
