@@ -165,8 +165,8 @@ int merge_all(const FarmCommand& command, const farm::FarmJob& job) {
   for (long long frame = 0; frame < job.frame_count(); ++frame) {
     if (!render::read_record(farm::folder_of(job, frame))) continue;  // no worker came to make one
     if (!farm::is_merged(job, frame)) {
-      std::vector<std::string> words{own_path(), "merge", farm::folder_of(job, frame), "-o", farm::picture_of(job, frame)};
-      words.insert(words.end(), job.merge_options.begin(), job.merge_options.end());
+      std::vector<std::string> words = farm::merge_words_of(job, frame);
+      words[0] = own_path();
       const Said said = run_program(words);
       if (!said.text.empty()) std::cerr << said.text << '\n';
       if (said.code != 0) {

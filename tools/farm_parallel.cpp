@@ -40,8 +40,7 @@ class ParallelEngine : public Engine {
   bool is_running() override { return program_ && program_->is_running(); }
 
   void leave() override {
-    program_->send(SIGTERM);  // no new ones
-    program_->send(SIGTERM);  // and an end of those that run
+    program_->send(SIGTERM);  // no new ones, and its sequence of signals to those that run
     program_.reset();         // when they have left their checkpoints
   }
 

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include <nlohmann/json.hpp>
 
 #include "phase/base/error.h"
 #include "phase/base/whole_file.h"
+#include "phase/settings/toml_text.h"
 #include "src/farm/task_script.h"
 #include "src/render/tile.h"
 
@@ -95,21 +94,18 @@ std::string command_of(const FarmJob& job, const TaskPart& part) {
   return joined(words);
 }
 
-std::string merge_command_of(const FarmJob& job, long long frame) {
+std::vector<std::string> merge_words_of(const FarmJob& job, long long frame) {
   std::vector<std::string> words{job.program, "merge", folder_of(job, frame), "-o", picture_of(job, frame)};
   words.insert(words.end(), job.merge_options.begin(), job.merge_options.end());
-  return joined(words);
+  return words;
 }
 
 std::string record_path(const std::string& folder) { return (fs::path(folder) / "farm.json").string(); }
 
 std::optional<FarmJob> read_farm(const std::string& folder) {
-  std::ifstream in(record_path(folder), std::ios::binary);
-  if (!in) return std::nullopt;
-  std::stringstream text;
-  text << in.rdbuf();
+  if (!fs::exists(record_path(folder))) return std::nullopt;
   try {
-    const Json record = Json::parse(text.str());
+    const Json record = Json::parse(read_text_file(record_path(folder)));
     if (record.at("arcus_farm") != format) throw Error(Fault::mismatch, record_path(folder) + ": of another version of the program");
     FarmJob job;
     job.folder = folder;
@@ -146,7 +142,7 @@ void write_farm(const FarmJob& job, int retries) {
   write_whole_file(inside(job, "tasks.txt"), tasks_text(job));
   write_whole_file(inside(job, "task.sh"), task_script(job.folder, retries));
   std::vector<std::string> merges;
-  for (long long frame = 0; frame < job.frame_count(); ++frame) merges.push_back(merge_command_of(job, frame));
+  for (long long frame = 0; frame < job.frame_count(); ++frame) merges.push_back(joined(merge_words_of(job, frame)));
   write_whole_file(inside(job, "merge.sh"), merge_script(merges));
   write_whole_file(record_path(job.folder), record_text(job));  // last: it says that the others are there
 }

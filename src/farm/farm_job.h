@@ -56,8 +56,8 @@ std::string picture_of(const FarmJob& job, long long frame);
 std::string shell_quoted(const std::string& word);
 /// As a shell takes it: `arcus tile ...`.
 std::string command_of(const FarmJob& job, const TaskPart& part);
-/// As a shell takes it: `arcus merge ...`.
-std::string merge_command_of(const FarmJob& job, long long frame);
+/// What joins a frame's tiles, word by word: `arcus merge ...`.
+std::vector<std::string> merge_words_of(const FarmJob& job, long long frame);
 
 std::string record_path(const std::string& folder);
 /// Nothing where there is none. Throws Fault::mismatch where it is damaged.

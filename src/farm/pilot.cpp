@@ -3,15 +3,19 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <thread>
 
 #include "src/render/picture.h"
 #include "src/scene/build_scene.h"
+#include "src/scene/fingerprint.h"
 
 namespace arcus::farm {
 namespace {
 
 constexpr double pilot_seconds = 3, pilot_pixels = 8000;
+/// Where building a scene takes longer, tables may have been made that no worker makes again.
+constexpr double long_start_seconds = 2;
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -29,9 +33,19 @@ Pilot run_pilot(const render::SceneSettings& settings, const std::string& cache_
   build.cache_folder = cache_folder;
   build.log = say;
   Pilot pilot;
-  const auto begin = std::chrono::steady_clock::now();
-  const render::Scene scene = render::build_scene(small, build);
-  pilot.start_seconds = seconds_since(begin);
+  const auto start = [&] {
+    const auto begin = std::chrono::steady_clock::now();
+    render::scene_identity(small);  // each worker reads all inputs for their hashes
+    render::Scene scene = render::build_scene(small, build);
+    pilot.start_seconds = seconds_since(begin);
+    return scene;
+  };
+  std::optional<render::Scene> built(start());
+  if (pilot.start_seconds > long_start_seconds) {
+    built.reset();
+    built.emplace(start());
+  }
+  const render::Scene& scene = *built;
   // Whole passes alone say what the mean over the picture is; the first one is never cut short. What an integrator makes before is part of the start.
   small.render.samples_per_pixel = 1;
   const auto begin_integrator = std::chrono::steady_clock::now();

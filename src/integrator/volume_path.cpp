@@ -427,8 +427,8 @@ Spectrum VolumePath::sun_transmittance(const Vec3& position_m, const Departure& 
   const media::Ray ray{position_m, to_sun};
   if (scene_.surfaces.is_blocked(ray, departure)) return {};
   if (scene_.air) {
+    if (scene_.air->distance_to_sea_level_m(ray) < std::numeric_limits<double>::infinity()) return {};  // the planet stands before the sun
     const Spectrum through_air = media::transmittance(sample.air->optical_depth(scene_.air->columns(ray)));
-    if (!(through_air.max() > 1e-30f)) return {};  // the sun is behind the planet
     return through_air * media::ratio_transmittance(*scene_.medium, ray, sample.wavelengths, sample.random);
   }
   return media::ratio_transmittance(*scene_.medium, ray, sample.wavelengths, sample.random);

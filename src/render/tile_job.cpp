@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include <nlohmann/json.hpp>
 
@@ -162,12 +160,9 @@ void write_record(const std::string& folder, const TileJob& job) {
 }
 
 std::optional<TileJob> read_record(const std::string& folder) {
-  std::ifstream in(record_path(folder), std::ios::binary);
-  if (!in) return std::nullopt;
-  std::stringstream text;
-  text << in.rdbuf();
+  if (!std::filesystem::exists(record_path(folder))) return std::nullopt;
   try {
-    const Json record = Json::parse(text.str());
+    const Json record = Json::parse(read_text_file(record_path(folder)));
     const TileJob job = job_of(record.at("job"));
     if (record.at("arcus_tiles") != format || record.at("hash") != content_hash(json_of(job))) return std::nullopt;
     return job;

@@ -78,7 +78,7 @@ must "$ARCUS" farm s.toml --out f --frames 9:11 --set sun.elevation_deg=10..30 -
 check 'a frame that was made again differs' are_equal f/s.0010.exr frame.exr
 
 # A host with ssh, played by a script that runs the command here.
-printf '#!/bin/sh\nwhile [ "$1" != host ]; do shift; done\nshift\n[ "$1" != -- ] || shift\necho used >>"%s/ssh.txt"\nexec sh -c "$*"\n' "$work" >ssh
+printf '#!/bin/sh\nwhile [ "$1" != host ]; do shift; done\nshift\n[ "$1" != -- ] || shift\nexport SHELL=/bin/sh\necho used >>"%s/ssh.txt"\nexec sh -c "$*"\n' "$work" >ssh
 chmod +x ssh
 must env PARALLEL_SSH="$work/ssh" "$ARCUS" farm s.toml --out h --hosts 2/host $tiles --quiet
 check 'no host was asked' test -s ssh.txt
