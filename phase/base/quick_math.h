@@ -43,6 +43,16 @@ inline float quick_angle(float y, float x) {
   return x < 0 ? 3.14159265f - angle : angle;
 }
 
+/// e to a power in [-87, 88], 0 below; relative errors of 2e-7.
+inline float quick_exponential(float power) {
+  const float shift = 12582912.0f;  // 1.5 2^23: adding it rounds to a whole number
+  const float halves = power * 1.44269504f, whole = (halves + shift) - shift;
+  const float x = 0.693147181f * (halves - whole);
+  const float series = 1 + x * (1 + x * (0.5f + x * (1.0f / 6 + x * (1.0f / 24 + x * (1.0f / 120 + x * (1.0f / 720))))));
+  const float scale = std::bit_cast<float>((static_cast<std::int32_t>(whole) + 127) << 23);
+  return power < -87 ? 0 : series * scale;
+}
+
 /// Natural logarithm of a normal number above 0; relative errors of 1e-7.
 inline float quick_logarithm(float number) {
   const auto bits = std::bit_cast<std::int32_t>(number);

@@ -48,6 +48,8 @@ RefractiveIndex RefractiveIndex::ice() {
   return index;
 }
 
+RefractiveIndex RefractiveIndex::mineral() { return from_text(data::mineral_refractive_index(), "mineral_refractive_index.csv"); }
+
 RefractiveIndex RefractiveIndex::constant(const ConstantIndexSettings& settings) {
   RefractiveIndex index;
   index.name_ = "constant";
@@ -90,9 +92,12 @@ RefractiveIndex RefractiveIndex::from_file(const std::string& path) {
   return from_columns(read_columns_file(path), path);
 }
 
+bool RefractiveIndex::is_built_in(const std::string& material) { return material == "water" || material == "ice" || material == "mineral"; }
+
 RefractiveIndex RefractiveIndex::named(const std::string& material) {
   if (material == "water") return water();
   if (material == "ice") return ice();
+  if (material == "mineral") return mineral();
   return from_file(material);
 }
 

@@ -37,13 +37,17 @@ class RefractiveIndex {
   static RefractiveIndex water();
   /// Ice Ih at 266 K, 300 ... 1000 nm: Warren and Brandt (2008).
   static RefractiveIndex ice();
+  /// Desert dust, 350 ... 800 nm: Hess, Koepke and Schult (1998).
+  static RefractiveIndex mineral();
   static RefractiveIndex constant(const ConstantIndexSettings& settings);
   /// Rows of vacuum wavelength [nm], n and k, relative to the surroundings as every explicit index
   /// is (divide a table of absolute indices by air_index). Throws bad_input: unreadable, not three
   /// columns, wavelengths not ascending, n not above 0, k below 0.
   static RefractiveIndex from_file(const std::string& path);
   static RefractiveIndex from_text(std::string_view text, std::string_view where);
-  /// "water", "ice", or else the name of a file.
+  /// Whether `named` knows it without a file: "water", "ice", "mineral".
+  static bool is_built_in(const std::string& material);
+  /// One of these, or else what a file says.
   static RefractiveIndex named(const std::string& material);
 
   /// m relative to air. Throws bad_input outside first_nm() ... last_nm(): optical constants are

@@ -135,8 +135,7 @@ Recipe recipe_from_file(const std::string& path) {
 
 void resolve_files(Recipe& recipe, const std::string& folder) {
   if (!recipe.file.empty()) recipe.file = path_from(folder, recipe.file);
-  const bool is_file = !recipe.material.empty() && recipe.material != "water" && recipe.material != "ice";
-  if (is_file) recipe.material = path_from(folder, recipe.material);
+  if (!recipe.material.empty() && !RefractiveIndex::is_built_in(recipe.material)) recipe.material = path_from(folder, recipe.material);
 }
 
 void make_files_absolute(Recipe& recipe) { resolve_files(recipe, std::filesystem::current_path().string()); }

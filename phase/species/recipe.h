@@ -22,7 +22,7 @@ struct Recipe {
   std::string file;                ///< table: see read_table_file
 
   // mie, rain and crystal
-  std::string material = "water";  ///< water | ice | a file; empty: `index` holds
+  std::string material = "water";  ///< water | ice | mineral | a file; empty: `index` holds
   ConstantIndexSettings index;
   /// Size nodes: effective radii, of crystals mean maximum dimensions (empty in a new Recipe: the defaults of its type).
   std::vector<double> size_um;

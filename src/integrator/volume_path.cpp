@@ -37,6 +37,8 @@ constexpr float enough_for_first_sun_ray = 0.01f, enough_for_sun_ray = 0.1f, lea
 /// The coarse optical depth overlooks holes: this share of it is believed.
 constexpr float believed_depth = 0.7f;
 
+constexpr double never = std::numeric_limits<double>::infinity();
+
 /// Dry air in the visible range (phase/optics/air.h says how little it changes over it).
 const phase::PhaseFunction by_air{phase::Rayleigh()};
 
@@ -108,13 +110,13 @@ VolumePath::VolumePath(const Scene& scene, long long max_bounces, SunReach sun_r
 Spectrum VolumePath::radiance(const media::Ray& camera_ray, const Wavelengths& wavelengths, const FirstNumbers& first,
                               Random& random, Work& work) const {
   Sample sample{wavelengths, random, work, scene_.sun.light(wavelengths), {}, {}};
-  if (scene_.air) sample.air.emplace(wavelengths);
+  if (scene_.air) sample.air.emplace(wavelengths, scene_.haze.get());
   Path path;
   path.ray = camera_ray;
   const auto hit = scene_.surfaces.nearest_hit(path.ray);
   if (hit) path.ray.farthest_m = hit->distance_m;
   if (is_within_body(hit)) {
-    if (pass(path, hit, sample)) follow(path, sample);
+    if (pass(path, *hit, sample)) follow(path, sample);
     return sample.total;
   }
 
@@ -140,17 +142,15 @@ Spectrum VolumePath::radiance(const media::Ray& camera_ray, const Wavelengths& w
 }
 
 bool VolumePath::split_in_air(Path& path, const std::optional<Hit>& hit, double u, Sample& sample) const {
-  const double ground_m = hit ? path.ray.farthest_m : scene_.air->distance_to_sea_level_m(path.ray);
+  const AirEnd end = hit ? AirEnd{never, never} : air_end(path.ray);
   media::Ray stretch = path.ray;
-  stretch.farthest_m = std::min(stretch.farthest_m, ground_m);
+  stretch.farthest_m = std::min(stretch.farthest_m, end.nearest_m());
   const Spectrum whole = sample.air->optical_depth(scene_.air->columns(stretch));
   if (!(whole[0] > 0 && whole.max() < most_forced_depth)) return false;
 
-  if (hit || ground_m == std::numeric_limits<double>::infinity()) {
-    Path straight = path;
-    straight.weight *= media::transmittance(whole);
-    if (pass(straight, hit, sample)) follow(straight, sample);
-  }
+  Path straight = path;
+  straight.weight *= media::transmittance(whole);
+  if (leave_air(straight, end, hit, sample)) follow(straight, sample);
   // The collision's density at each wavelength is relative to that wavelength's own share of rays that collide.
   Spectrum share;
   for (int j = 0; j < wavelength_count; ++j) share[j] = -std::expm1(-whole[j]);
@@ -177,7 +177,7 @@ void VolumePath::follow(Path& path, Sample& sample) const {
     const auto hit = scene_.surfaces.nearest_hit(path.ray, path.departure);
     if (hit) path.ray.farthest_m = hit->distance_m;
     if (is_within_body(hit)) {
-      goes_on = pass(path, hit, sample);
+      goes_on = pass(path, *hit, sample);
       continue;
     }
     media::CollisionWalk walk(*scene_.medium, path.ray, sample.wavelengths, sample.random);
@@ -186,21 +186,21 @@ void VolumePath::follow(Path& path, Sample& sample) const {
 }
 
 bool VolumePath::advance(Path& path, media::CollisionWalk* walk, const std::optional<Hit>& hit, Sample& sample) const {
-  constexpr double never = std::numeric_limits<double>::infinity();
   std::optional<media::AirCollision> in_air;
-  double air_m = never, ground_m = never, air_depth = 0;
+  AirEnd end{never, never};
+  double air_m = never, air_depth = 0;
   // Up to here there is certainly no collision with air, which is nowhere denser than at sea level: within clouds paths seldom get so far.
   double safe_m = never;
   if (scene_.air) {
-    if (!hit) ground_m = scene_.air->distance_to_sea_level_m(path.ray);
+    if (!hit) end = air_end(path.ray);
     air_depth = -std::log1p(-sample.random.uniform_double());
-    safe_m = std::min(ground_m, air_depth / static_cast<double>(sample.air->optical_depth(scene_.air->density(0))[0]));
+    safe_m = std::min(end.nearest_m(), air_depth / static_cast<double>(sample.air->optical_depth(scene_.air->density(0))[0]));
   }
   const auto meet_air = [&] {
     media::Ray stretch = path.ray;
-    stretch.farthest_m = std::min(stretch.farthest_m, ground_m);
+    stretch.farthest_m = std::min(stretch.farthest_m, end.nearest_m());
     in_air = media::air_collision_at(*scene_.air, stretch, *sample.air, air_depth);
-    air_m = in_air ? in_air->distance_m : ground_m;
+    air_m = in_air ? in_air->distance_m : end.nearest_m();
     safe_m = never;
   };
   media::Collision collision;
@@ -217,9 +217,36 @@ bool VolumePath::advance(Path& path, media::CollisionWalk* walk, const std::opti
   }
   if (safe_m < never) meet_air();
   if (in_air) return path.bounces++ != max_bounces_ && scatter_in_air(path, *in_air, sample);
-  if (ground_m < never) return false;
-  if (scene_.air) dim_by_air(path, path.ray.farthest_m, sample);
-  return pass(path, hit, sample);
+  if (scene_.air) dim_by_air(path, std::min(path.ray.farthest_m, end.nearest_m()), sample);
+  return leave_air(path, end, hit, sample);
+}
+
+VolumePath::AirEnd VolumePath::air_end(const media::Ray& ray) const {
+  AirEnd end{scene_.air->distance_to_sea_level_m(ray), never};
+  if (scene_.sky_table) {
+    const auto inside = media::clip(ray, scene_.air_region_m);
+    end.exit_m = inside ? inside->end : 0;
+  }
+  return end;
+}
+
+bool VolumePath::leave_air(Path& path, const AirEnd& end, const std::optional<Hit>& hit, Sample& sample) const {
+  if (end.ground_m < never && end.ground_m <= end.exit_m) return meet_ground(path, end.ground_m, sample);
+  if (!hit) {
+    sample.total += escaped(path, end.exit_m, sample);
+    return false;
+  }
+  return pass(path, *hit, sample);
+}
+
+bool VolumePath::meet_ground(Path& path, double distance_m, Sample& sample) const {
+  if (!scene_.ground || path.bounces++ == max_bounces_) return false;
+  ++sample.work.surface_hits;
+  const Vec3 position = path.ray.at(distance_m);
+  Vec3 up = position;
+  up.z += scene_.air->settings().planet_radius_m;
+  reflect(path, Hit{distance_m, position, up.normalized(), &*scene_.ground, false, {}}, *scene_.ground->matte(), sample);
+  return true;
 }
 
 void VolumePath::dim_by_air(Path& path, double distance_m, const Sample& sample) const {
@@ -233,24 +260,43 @@ void VolumePath::dim_by_air(Path& path, double distance_m, const Sample& sample)
 
 bool VolumePath::scatter_in_air(Path& path, const media::AirCollision& collision, Sample& sample) const {
   ++sample.work.scatterings;
-  const Spectrum ratio = media::transmittance_over_first(collision.optical_depth) * (1 / collision.extinction_per_m[0]);
-  path.weight *= ratio * collision.scattering_per_m;
-  path.density *= ratio * collision.extinction_per_m;
-  return turn(path, path.ray.at(collision.distance_m), by_air, sample);
-}
-
-bool VolumePath::pass(Path& path, const std::optional<Hit>& hit, Sample& sample) const {
-  if (!hit) {
-    sample.total += escaped(path, sample);
-    return false;
+  const media::AirOptics& optics = *sample.air;
+  const Vec3 position = path.ray.at(collision.distance_m);
+  const Spectrum through = media::transmittance_over_first(collision.optical_depth);
+  // By gas or by a mode of haze, as the first wavelength meets them.
+  const auto meets = [&](const Spectrum& extinction_per_m, const Spectrum& scattering_per_m) {
+    path.weight *= through * scattering_per_m / extinction_per_m[0];
+    path.density *= through * extinction_per_m / extinction_per_m[0];
+  };
+  const Spectrum gas = optics.gas_depth(collision.density);
+  double left = optics.haze_modes == 0 ? 0 : sample.random.uniform_double() * optics.first_depth(collision.density) - static_cast<double>(gas[0]);
+  if (optics.haze_modes == 0 || left < 0) {
+    meets(gas, optics.molecular_scattering(collision.density));
+    return turn(path, position, by_air, sample);
   }
-  if (path.bounces++ == max_bounces_) return false;
-  return meet(path, *hit, sample);
+  int mode = 0;
+  const auto extinction_of = [&](int m) { return optics.mode_ratio[static_cast<std::size_t>(m)] * static_cast<float>(collision.density.haze_depth_550); };
+  while (mode + 1 < optics.haze_modes && left >= static_cast<double>(extinction_of(mode)[0])) left -= static_cast<double>(extinction_of(mode++)[0]);
+  const media::Scatterer scatterer = scene_.haze->scatterer(mode, sample.wavelengths, sample.random.uniform());
+  meets(extinction_of(mode), extinction_of(mode) * scatterer.albedo);
+  return turn(path, position, scatterer.phase, sample);
 }
 
-Spectrum VolumePath::escaped(const Path& path, const Sample& sample) const {
-  Spectrum light = scene_.sky.radiance(path.ray.direction, sample.wavelengths);
-  if (path.sun_share > 0) light += scene_.sun.radiance(path.ray.direction, sample.sunlight) * path.sun_share;
+bool VolumePath::pass(Path& path, const Hit& hit, Sample& sample) const {
+  if (path.bounces++ == max_bounces_) return false;
+  return meet(path, hit, sample);
+}
+
+Spectrum VolumePath::escaped(const Path& path, double distance_m, const Sample& sample) const {
+  Spectrum light = scene_.sky.radiance(path.ray.direction, sample.wavelengths), sun;
+  if (path.sun_share > 0) sun = scene_.sun.radiance(path.ray.direction, sample.sunlight) * path.sun_share;
+  if (scene_.sky_table) {
+    const media::Ray on{path.ray.at(distance_m), path.ray.direction};
+    light += scene_.sky_table->radiance(on.origin_m, on.direction, sample.wavelengths) * sample.sunlight.irradiance_w_per_m2_nm;
+    if (sun.max() > 0 && scene_.air->distance_to_sea_level_m(on) == never) sun *= media::transmittance(sample.air->optical_depth(scene_.air->columns(on)));
+    else sun = {};
+  }
+  light += sun;
   return path.contribution(light);
 }
 

@@ -8,6 +8,7 @@
 // four led (Wilkie et al., EGSR 2014; Miller, Georgiev and Jarosz, "A null-scattering path integral formulation of
 // light transport", SIGGRAPH 2019). Where a medium is grey the two stay equal and the four share everything.
 
+#include <algorithm>
 #include <optional>
 
 #include "media/air/air_walk.h"
@@ -53,6 +54,12 @@ class VolumePath : public Integrator {
   /// Follows a path along its ray to the next collision or else to `hit` or out of the scene; the walk may be none where the media are known
   /// to let it pass. False where it ends.
   bool advance(Path& path, media::CollisionWalk* walk, const std::optional<Hit>& hit, Sample& sample) const;
+  /// How far a ray that meets no surface goes through air that is traced.
+  struct AirEnd {
+    double ground_m, exit_m;  ///< to the planet, and to where the sky's table takes over; infinity where there is none
+    double nearest_m() const { return std::min(ground_m, exit_m); }
+  };
+  AirEnd air_end(const media::Ray& ray) const;
   /// Splits a camera ray through thin air alone into the share that meets nothing and the rest, which is scattered at a place that `u` in [0, 1)
   /// gives. False, and nothing done, where the air is thick.
   bool split_in_air(Path& path, const std::optional<Hit>& hit, double u, Sample& sample) const;
@@ -60,10 +67,14 @@ class VolumePath : public Integrator {
   void dim_by_air(Path& path, double distance_m, const Sample& sample) const;
   /// Scatters at a place in the air. False where it ends.
   bool scatter_in_air(Path& path, const media::AirCollision& collision, Sample& sample) const;
-  /// What follows where the medium let the path through. False where it ends.
-  bool pass(Path& path, const std::optional<Hit>& hit, Sample& sample) const;
-  /// Light that arrives where the path has left the scene.
-  Spectrum escaped(const Path& path, const Sample& sample) const;
+  /// What follows where the medium let the path through to a surface. False where it ends.
+  bool pass(Path& path, const Hit& hit, Sample& sample) const;
+  /// What follows where the air that is traced let the path through. False where it ends.
+  bool leave_air(Path& path, const AirEnd& end, const std::optional<Hit>& hit, Sample& sample) const;
+  /// Reflects from the planet at a distance along the ray, which air has dimmed. False where it ends.
+  bool meet_ground(Path& path, double distance_m, Sample& sample) const;
+  /// Light that arrives where the path has left the scene, at a distance along its ray.
+  Spectrum escaped(const Path& path, double distance_m, const Sample& sample) const;
   /// Scatters in the medium. False where it ends.
   bool scatter(Path& path, const media::Collision& collision, Sample& sample) const;
   /// Scatters by a phase function: adds sunlight, turns the path. False where it ends.

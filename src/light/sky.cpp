@@ -1,9 +1,11 @@
 #include "src/light/sky.h"
 
+#include "phase/optics/air.h"
+
 namespace arcus::render {
 
 void list_keys(Keys& keys, SkySettings& sky) {
-  keys.choice("type", sky.type, {"none", "constant", "clear"}, "what surrounds the scene; clear: the air of a round planet, which scatters the sun's light, dims all that is seen through it, and ends on black ground at z = 0 where no surface is");
+  keys.choice("type", sky.type, {"none", "constant", "clear"}, "what surrounds the scene; clear: the air of a round planet, which scatters the sun's light, dims all that is seen through it, and ends on matte ground at z = 0 where no surface is");
   if (keys.only_if(sky.type == "constant", "type = constant")) {
     keys.number("radiance", sky.radiance, at_least(0), "the same in all directions, at 550 nm [W m-2 sr-1 nm-1]");
     keys.choice("spectrum", sky.spectrum, {"flat", "sun", "rayleigh"},
@@ -11,10 +13,27 @@ void list_keys(Keys& keys, SkySettings& sky) {
                 "sun's times the inverse fourth power of the wavelength, a plain blue");
   }
   if (keys.only_if(sky.type == "clear", "type = clear")) {
+    keys.choice("method", sky.method, {"table", "traced"},
+                "table: air is traced where media and surfaces are, or their shadows may fall, and its light from farther away is tabulated before (within 3 %); traced: all of it, without bias, slowly");
+    keys.choice("haze", sky.haze.type, {"none", "continental", "maritime", "desert"}, "particles in the air besides: mixtures of OPAC at a relative humidity of 80 %");
+    if (keys.only_if(sky.haze.type != "none", "haze other than none")) {
+      keys.number("haze_optical_depth", sky.haze.optical_depth, between(0, 5), "of the haze at 550 nm, straight up from z = 0: 0.05 very clear, 0.1 clear, 0.3 hazy");
+      keys.number("haze_visibility_m", sky.haze.visibility_m, between(0, 300000), "how far one sees at z = 0, in place of the optical depth; 0: the optical depth holds [m]");
+      keys.number("haze_scale_height_m", sky.haze.scale_height_m, between(100, 20000), "haze thins to 1/e over this height [m]");
+    }
+    keys.number("ground_albedo", sky.ground_albedo, between(0, 1), "share of the light that the planet's ground returns");
     keys.number("pressure_hpa", sky.air.pressure_hpa, between(0, 2000), "at z = 0: how much air there is");
     keys.number("ozone_dobson_units", sky.air.ozone_dobson_units, between(0, 1000), "ozone between 10 and 40 km: 250 in the tropics, 300 to 450 elsewhere; it keeps the dusk blue");
     keys.number("planet_radius_m", sky.air.planet_radius_m, between(1e5, 1e12), "the planet's centre is so far below the origin; very large: flat layers");
   }
+}
+
+media::AirSettings air_of(const SkySettings& sky) {
+  media::AirSettings air = sky.air;
+  if (sky.haze.type == "none") return air;
+  air.haze_scale_height_m = sky.haze.scale_height_m;
+  air.haze_depth_550 = media::haze_depth_550(sky.haze, phase::air_molecules_per_m3_at_sea_level * air.pressure_hpa / 1013.25);
+  return air;
 }
 
 Sky::Sky(const SkySettings& settings, const Curve& sun_irradiance)

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "media/air/atmosphere.h"
+#include "media/air/haze.h"
 #include "phase/base/curve.h"
 #include "phase/base/spectrum.h"
 #include "phase/base/vec3.h"
@@ -16,9 +17,15 @@ struct SkySettings {
   std::string type = "none";  ///< none | constant | clear
   double radiance = 0.1;      ///< of the constant sky, at 550 nm and with a flat spectrum everywhere [W m-2 sr-1 nm-1]
   std::string spectrum = "flat";  ///< flat | sun: in proportion to the sun's | rayleigh: that times λ⁻⁴
-  media::AirSettings air;     ///< of the clear sky
+  // Of the clear sky:
+  std::string method = "table";  ///< table | traced
+  media::AirSettings air;        ///< its haze comes from here:
+  media::HazeSettings haze;
+  double ground_albedo = 0.15;   ///< of the planet
 };
 void list_keys(Keys& keys, SkySettings& sky);
+/// The air of a clear sky, haze included.
+media::AirSettings air_of(const SkySettings& sky);
 
 class Sky {
  public:

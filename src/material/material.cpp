@@ -71,8 +71,7 @@ Material make_material(const MaterialSettings& settings, const std::string& fold
   if (settings.type == "mirror") return Material(Mirror{colour(settings.albedo)});
   const auto index = [&] {
     if (settings.index.empty()) return phase::RefractiveIndex::constant(settings.index_constant);
-    const bool is_known = settings.index == "water" || settings.index == "ice";
-    return phase::RefractiveIndex::named(is_known ? settings.index : path_from(folder, settings.index));
+    return phase::RefractiveIndex::named(phase::RefractiveIndex::is_built_in(settings.index) ? settings.index : path_from(folder, settings.index));
   }();
   const ClearBody body(index, colour(settings.filter), settings.filter_m, settings.enlargement);
   if (settings.type == "transparent") return Material(Transparent{body, settings.reflectance, settings.transmittance});

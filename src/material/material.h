@@ -20,7 +20,7 @@ struct MaterialSettings {
   std::string pattern = "plain";        ///< plain | checker (matte)
   std::vector<double> other_albedo{0.05};
   double pattern_m = 1;                 ///< edge of the squares
-  std::string index = "water";          ///< water | ice | a file | empty: index_constant (transparent, dielectric)
+  std::string index = "water";          ///< water | ice | mineral | a file | empty: index_constant (transparent, dielectric)
   phase::ConstantIndexSettings index_constant;
   double reflectance = 0.1, transmittance = 0.9;  ///< transparent: shares at every meeting
   std::vector<double> filter{1};        ///< left of the light after filter_m inside; one number or linear R, G, B

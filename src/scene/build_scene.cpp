@@ -189,6 +189,46 @@ Surfaces make_surfaces(const SceneSettings& scene, const BuildOptions& options) 
   return Surfaces(std::move(parts), scene.render.intersector == "exhaustive");
 }
 
+/// Around all that light of the air may fall on, or shadows reach: what is there, the camera, and down to the ground away from the sun.
+media::Box air_region_m(const Scene& scene, const Vec3& camera_m) {
+  constexpr double farthest_shadow_m = 40000;
+  media::Box region = scene.medium->bounds_m();
+  region.include(scene.surfaces.bounds_m());
+  if (!region.is_empty() && region.high.z > 0) {
+    const Vec3 to_sun = scene.sun.to_centre();
+    const double level = std::hypot(to_sun.x, to_sun.y);
+    const double reach_m = to_sun.z > 0 ? std::min(farthest_shadow_m, region.high.z * level / to_sun.z) : farthest_shadow_m;
+    const Vec3 away = level > 0 ? Vec3(to_sun.x, to_sun.y, 0) * (-reach_m / level) : Vec3(0, 0, 0);
+    const media::Box there = region;
+    region.include(Vec3(there.low.x, there.low.y, 0) + away);
+    region.include(Vec3(there.high.x, there.high.y, 0) + away);
+    region.low.z = std::min(region.low.z, 0.0);
+  }
+  region.include(camera_m);
+  return region;
+}
+
+void add_air(const SceneSettings& settings, const BuildOptions& options, Scene& scene) {
+  const SkySettings& sky = settings.sky;
+  const media::AirSettings air = air_of(sky);
+  if (air.haze_depth_550 < 0)
+    throw bad_input(settings.path + ": sky.haze_visibility_m", number_text(sky.haze.visibility_m), "farther than one sees through clean air",
+                    "Leave haze out, or say haze_optical_depth");
+  scene.air.emplace(air);
+  if (scene.air->height_m(settings.camera.position_m) < 0)
+    throw bad_input(settings.path + ": camera.position_m", "a place below sea level", "a height above 0 over the round planet expected: the air of a clear sky ends there",
+                    "z = 0 is sea level under the origin; far from it the planet curves away below");
+  if (air.haze_depth_550 > 0) scene.haze = std::make_shared<const media::Haze>(sky.haze.type, species_options(settings, options));
+  if (sky.ground_albedo > 0) scene.ground.emplace(Matte(sky.ground_albedo));
+  if (sky.method != "table" || !scene.sun.is_on()) return;
+  scene.air_region_m = air_region_m(scene, settings.camera.position_m);
+  constexpr double above_region_m = 2000;  // level surfaces reach farther, where the planet curves away from them
+  const media::SkySettings light{scene.sun.to_centre(), scene.sun.angular_radius_rad(), sky.ground_albedo};
+  const media::Box& region = scene.air_region_m;
+  const double farthest_m = std::max(std::hypot(region.low.x, region.low.y), std::hypot(region.high.x, region.high.y));
+  scene.sky_table = std::make_unique<const media::SkyTable>(*scene.air, scene.haze, light, region.high.z + above_region_m, farthest_m);
+}
+
 }  // namespace
 
 Scene build_scene(const SceneSettings& settings, const BuildOptions& options) {
@@ -198,16 +238,14 @@ Scene build_scene(const SceneSettings& settings, const BuildOptions& options) {
     if (!is_shown_as_drops(medium, settings)) add_medium(medium, settings, options, made, components);
   auto medium = std::make_unique<const media::Medium>(std::move(components));
   report_depth(*medium, options);
-  if (settings.sky.type == "clear" && media::Atmosphere(settings.sky.air).height_m(settings.camera.position_m) < 0)
-    throw bad_input(settings.path + ": camera.position_m", "a place below sea level", "a height above 0 over the round planet expected: the air of a clear sky ends there",
-                    "z = 0 is sea level under the origin; far from it the planet curves away below");
   const Curve irradiance = sun_irradiance(settings.sun, settings.folder);
-  return Scene{.medium = std::move(medium),
-               .sun = Sun(settings.sun, irradiance),
-               .sky = Sky(settings.sky, irradiance),
-               .surfaces = make_surfaces(settings, options),
-               .air = settings.sky.type == "clear" ? std::optional(media::Atmosphere(settings.sky.air)) : std::nullopt,
-               .camera = make_camera(settings.camera)};
+  Scene scene{.medium = std::move(medium),
+              .sun = Sun(settings.sun, irradiance),
+              .sky = Sky(settings.sky, irradiance),
+              .surfaces = make_surfaces(settings, options),
+              .camera = make_camera(settings.camera)};
+  if (settings.sky.type == "clear") add_air(settings, options, scene);
+  return scene;
 }
 
 }  // namespace arcus::render

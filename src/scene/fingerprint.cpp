@@ -30,7 +30,7 @@ class Naming {
   /// The file with a body's index, where there is one.
   void index(MaterialSettings& material) {
     const bool is_clear = material.type == "transparent" || material.type == "dielectric";
-    if (is_clear && !material.index.empty() && material.index != "water" && material.index != "ice") file(material.index);
+    if (is_clear && !material.index.empty() && !phase::RefractiveIndex::is_built_in(material.index)) file(material.index);
   }
   std::vector<SceneInput> inputs() && { return std::move(inputs_); }
 

@@ -22,7 +22,7 @@ TEST(AirWalk, OpticalDepthIsThatOfEachWavelength) {
   const AirColumns columns = air.columns({{0, 0, 0}, {0, 0.6, 0.8}});
   for (int j = 0; j < wavelength_count; ++j)
     EXPECT_NEAR(optics.optical_depth(columns)[j] / Atmosphere::optical_depth(columns, wavelengths[j]), 1, 1e-6);
-  EXPECT_LT(optics.scattering(columns)[2], optics.optical_depth(columns)[2]) << "ozone absorbs";
+  EXPECT_LT(optics.molecular_scattering(columns)[2], optics.optical_depth(columns)[2]) << "ozone absorbs";
 }
 
 TEST(AirWalk, CollidesWhereTheDepthIsReached) {
@@ -42,7 +42,7 @@ TEST(AirWalk, CollidesWhereTheDepthIsReached) {
         Ray until = ray;
         until.farthest_m = found->distance_m;
         EXPECT_NEAR(optics.optical_depth(air.columns(until))[0] / (part * whole), 1, 1e-5) << elevation_deg << " " << height_m << " " << part;
-        EXPECT_NEAR(found->extinction_per_m[1] / optics.optical_depth(air.density(air.height_m(ray.at(found->distance_m))))[1], 1, 1e-6);
+        EXPECT_NEAR(optics.optical_depth(found->density)[1] / optics.optical_depth(air.density(air.height_m(ray.at(found->distance_m))))[1], 1, 1e-6);
       }
       EXPECT_FALSE(air_collision_at(air, ray, optics, 1.001 * whole));
     }

@@ -11,6 +11,7 @@
 
 #include "media/air/air_walk.h"
 #include "phase/base/curve.h"
+#include "phase/species/species_cache.h"
 #include "phase/base/units.h"
 #include "src/integrator/volume_path.h"
 #include "tests/statistics/seed.h"
@@ -62,7 +63,7 @@ media::Ray ray_of(bool looks_down, double view_cosine, double azimuth_deg, doubl
 }
 
 /// number: of the question, so that each has its own random numbers.
-Moments traced(const Scene& scene, const media::Ray& ray, std::size_t number) {
+Moments traced(const Scene& scene, const media::Ray& ray, std::size_t number, const Wavelengths& wavelengths = one_wavelength()) {
   const VolumePath integrator(scene, 1000000);
   constexpr int tasks = 64;
   const int samples = static_cast<int>(300 * statistics::test_effort());
@@ -71,7 +72,7 @@ Moments traced(const Scene& scene, const media::Ray& ray, std::size_t number) {
     double sum = 0;
     for (int i = 0; i < samples; ++i) {
       Random random(statistics::test_seed(), static_cast<std::uint64_t>(number) * tasks + static_cast<std::uint64_t>(task), static_cast<std::uint32_t>(i));
-      sum += integrator.radiance(ray, one_wavelength(), {0.5, 0.5, 0.5, random.uniform_double(), random.uniform_double()}, random).mean();
+      sum += integrator.radiance(ray, wavelengths, {0.5, 0.5, 0.5, random.uniform_double(), random.uniform_double()}, random).mean();
     }
     means[static_cast<std::size_t>(task)] = sum / samples;
   });
@@ -102,6 +103,43 @@ TEST(ClearSky, RadiancesOfFlatLayersMeetTheReference) {
   // All of them together say more than each.
   EXPECT_NEAR(deviations.mean(), 0, 0.3) << "in standard errors";
   std::cout << rows << " radiances; mean deviation " << deviations.mean() << " standard errors\n";
+}
+
+TEST(ClearSky, TracedAndTabulatedAgree) {
+  Wavelengths blue, red;
+  blue.nm = {450, 450, 450, 450};
+  red.nm = {620, 620, 620, 620};
+  const auto haze = std::make_shared<const media::Haze>("continental", phase::SpeciesOptions{.cache_folder = phase::default_cache_folder()});
+  std::size_t number = 0;
+  for (const double haze_depth : {0.0, 0.2})
+    for (const double sun_deg : {60.0, 20.0, 5.0, 0.0}) {
+      Scene scene = scene_of(0.1, 0, std::sin(radians(sun_deg)));
+      media::AirSettings settings;
+      settings.haze_depth_550 = haze_depth;
+      scene.air.emplace(settings);
+      if (haze_depth > 0) scene.haze = haze;
+      scene.ground.emplace(Matte(0.2));
+      const media::SkyTable table(*scene.air, scene.haze, {scene.sun.to_centre(), scene.sun.angular_radius_rad(), 0.2}, 100, 0);
+      Moments errors;
+      double worst = 0;
+      for (const double elevation_deg : {1.0, 6.0, 25.0, 50.0, 88.0})
+        for (const double azimuth_deg : {8.0, 70.0, 180.0}) {
+          for (const Wavelengths& wavelengths : {blue, red}) {
+            const media::Ray ray{{0, 0, 2}, direction_of(azimuth_deg, elevation_deg)};
+            const double irradiance = scene.sun.irradiance_w_per_m2_nm(wavelengths).mean();
+            const Moments found = traced(scene, ray, 100000 + number++, wavelengths);
+            const double expected = table.radiance(ray.origin_m, ray.direction, wavelengths).mean() * irradiance;
+            const double error = expected / found.mean() - 1;
+            EXPECT_NEAR(expected, found.mean(), 0.03 * found.mean() + 3 * found.standard_error())
+                << "haze " << haze_depth << " sun " << sun_deg << " elevation " << elevation_deg << " azimuth " << azimuth_deg << " at " << wavelengths[0] << " nm: table "
+                << expected << ", traced " << found.mean() << " +- " << found.standard_error();
+            errors.add(error);
+            worst = std::max(worst, std::fabs(error));
+          }
+        }
+      std::cout << "haze " << haze_depth << ", sun at " << sun_deg << " degrees: table over traced - 1: mean " << errors.mean() << ", at most " << worst << "\n";
+      EXPECT_NEAR(errors.mean(), 0, 0.015);
+    }
 }
 
 TEST(ClearSky, AnotherAmountOfAirWouldBeSeen) {
