@@ -30,7 +30,7 @@ endforeach()
 set(phase ${left})
 
 allow(media/space phase/base)
-allow(media/air phase/base phase/optics media/space)
+allow(media/air phase/base phase/optics phase/function phase/species media/space)
 allow(media/grid phase/base phase/settings media/space)  # settings: numbers as text in messages
 allow(media/author ${phase} media/space media/grid)
 set(left media/space media/air media/grid)

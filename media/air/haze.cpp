@@ -57,9 +57,14 @@ Spectrum Haze::extinction_ratio(int mode, const Wavelengths& wavelengths) const 
   return one.species->extinction_ratio(one.size_um, wavelengths) * one.share;
 }
 
-Scatterer Haze::scatterer(int mode, const Wavelengths& wavelengths, float u) const {
+Spectrum Haze::albedo(int mode, const Wavelengths& wavelengths) const {
   const Mode& one = modes_[static_cast<std::size_t>(mode)];
-  return {one.species->albedo(one.size_um, wavelengths), one.species->phase_function(one.size_um, u)};
+  return one.species->albedo(one.size_um, wavelengths);
+}
+
+phase::PhaseFunction Haze::phase_function(int mode) const {
+  const Mode& one = modes_[static_cast<std::size_t>(mode)];
+  return one.species->phase_function(one.size_um, 0);  // it has one size node
 }
 
 }  // namespace arcus::media

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "media/medium/scatterer.h"
 #include "phase/base/spectrum.h"
 #include "phase/base/wavelengths.h"
 #include "phase/species/make_species.h"
@@ -47,8 +46,10 @@ class Haze {
   int mode_count() const { return static_cast<int>(modes_.size()); }
   /// Extinction of a mode over that of all of them at 550 nm.
   Spectrum extinction_ratio(int mode, const Wavelengths& wavelengths) const;
-  /// What a particle of the mode does; u in [0, 1).
-  Scatterer scatterer(int mode, const Wavelengths& wavelengths, float u) const;
+  /// Share of that which is scattered.
+  Spectrum albedo(int mode, const Wavelengths& wavelengths) const;
+  /// Where it goes. Valid as long as the haze.
+  phase::PhaseFunction phase_function(int mode) const;
 
  private:
   struct Mode {

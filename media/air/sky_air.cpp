@@ -26,9 +26,8 @@ template <class Value>
 Spectrum mean_phase(const Haze& haze, const Wavelengths& wavelengths, const Value& value) {
   Spectrum sum, scattering;
   for (int mode = 0; mode < haze.mode_count(); ++mode) {
-    const Scatterer scatterer = haze.scatterer(mode, wavelengths, 0.5f);
-    const Spectrum share = haze.extinction_ratio(mode, wavelengths) * scatterer.albedo;
-    sum += share * value(scatterer.phase);
+    const Spectrum share = haze.extinction_ratio(mode, wavelengths) * haze.albedo(mode, wavelengths);
+    sum += share * value(haze.phase_function(mode));
     scattering += share;
   }
   return sum / scattering;
@@ -50,7 +49,7 @@ SkyAir::SkyAir(const Haze* haze) : haze_(haze) {
   for (int group = 0; group < sky_lane_count / wavelength_count; ++group)
     for (int mode = 0; mode < haze_->mode_count(); ++mode) {
       const Wavelengths& wavelengths = wavelengths_[static_cast<std::size_t>(group)];
-      const Spectrum extinction = haze_->extinction_ratio(mode, wavelengths), albedo = haze_->scatterer(mode, wavelengths, 0.5f).albedo;
+      const Spectrum extinction = haze_->extinction_ratio(mode, wavelengths), albedo = haze_->albedo(mode, wavelengths);
       for (int j = 0; j < wavelength_count; ++j) {
         haze_extinction_[group * wavelength_count + j] += extinction[j];
         haze_scattering_[group * wavelength_count + j] += extinction[j] * albedo[j];

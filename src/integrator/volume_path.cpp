@@ -277,9 +277,8 @@ bool VolumePath::scatter_in_air(Path& path, const media::AirCollision& collision
   int mode = 0;
   const auto extinction_of = [&](int m) { return optics.mode_ratio[static_cast<std::size_t>(m)] * static_cast<float>(collision.density.haze_depth_550); };
   while (mode + 1 < optics.haze_modes && left >= static_cast<double>(extinction_of(mode)[0])) left -= static_cast<double>(extinction_of(mode++)[0]);
-  const media::Scatterer scatterer = scene_.haze->scatterer(mode, sample.wavelengths, sample.random.uniform());
-  meets(extinction_of(mode), extinction_of(mode) * scatterer.albedo);
-  return turn(path, position, scatterer.phase, sample);
+  meets(extinction_of(mode), extinction_of(mode) * scene_.haze->albedo(mode, sample.wavelengths));
+  return turn(path, position, scene_.haze->phase_function(mode), sample);
 }
 
 bool VolumePath::pass(Path& path, const Hit& hit, Sample& sample) const {

@@ -155,4 +155,23 @@ TEST(VolumePath, LeadingWavelengthsDoNotBiasTheOthers) {
   }
 }
 
+TEST(VolumePath, SunBehindThePlanetSendsNothing) {
+  const auto scattered_once = [](double sun_elevation_deg) {
+    // A lid keeps out what the sun still reaches higher up.
+    SurfaceParts parts;
+    parts.planes.push_back({500, 0});
+    parts.materials.push_back(Material(Matte(0)));
+    const SunSettings sun{.azimuth_deg = 0, .elevation_deg = sun_elevation_deg};
+    const Scene scene{.medium = std::make_unique<media::Medium>(std::vector<media::Component>{}),
+                      .sun = Sun(sun, sun_irradiance(sun, "")),
+                      .sky = Sky({}, Curve({550}, {1}, "")),
+                      .surfaces = Surfaces(std::move(parts)),
+                      .air = media::Atmosphere({}),
+                      .camera = nullptr};
+    return traced(scene, {{0, 0, 1}, {0, 0, 1}}, 500, 1).mean();
+  };
+  EXPECT_EQ(scattered_once(-1), 0);
+  EXPECT_EQ(scattered_once(20), 0) << "shade of the lid";
+}
+
 }  // namespace arcus::render
