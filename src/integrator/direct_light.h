@@ -7,12 +7,19 @@
 namespace arcus::render {
 
 /// Radiance towards the ray's origin [W m-2 sr-1 nm-1]: sunlight from one place of the disc, drawn anew each time, and the sky as bright as it is
-/// straight over the surface, from everywhere. `is_lit`: whether the sun's light arrives along a direction.
+/// straight over the surface, from everywhere; a sky that is asked, from one direction drawn. `is_lit`: whether light from outside arrives along a direction.
 template <class IsLit>
 Spectrum direct_light(const Scene& scene, const Hit& hit, const Matte& matte, const Wavelengths& wavelengths, const SunLight& sunlight, Random& random,
                       IsLit is_lit) {
   const Spectrum albedo = matte.albedo_at(hit.position_m).at(wavelengths);
-  Spectrum light = albedo * scene.sky.radiance(hit.normal, wavelengths);
+  Spectrum light;
+  if (scene.sky.is_asked()) {
+    const Vec3 to_sky = scene.sky.draw(random.uniform_double(), random.uniform_double());
+    const double cosine = dot(hit.normal, to_sky), density = scene.sky.density_per_sr(to_sky);
+    if (cosine > 0 && density > 0 && is_lit(to_sky)) light = albedo * scene.sky.radiance(to_sky, wavelengths) * static_cast<float>(cosine / (pi * density));
+  } else {
+    light = albedo * scene.sky.radiance(hit.normal, wavelengths);
+  }
   if (!scene.sun.is_on()) return light;
   const Vec3 to_sun = scene.sun.draw(random.uniform_double(), random.uniform_double());
   const double cosine = dot(hit.normal, to_sun);

@@ -13,6 +13,7 @@
 #include "phase/species/make_species.h"
 #include "src/scene/colour_spectrum.h"
 #include "src/scene/droplets_from_medium.h"
+#include "src/scene/sky_picture.h"
 
 namespace arcus::render {
 namespace {
@@ -204,7 +205,7 @@ Scene build_scene(const SceneSettings& settings, const BuildOptions& options) {
   const Curve irradiance = sun_irradiance(settings.sun, settings.folder);
   return Scene{.medium = std::move(medium),
                .sun = Sun(settings.sun, irradiance),
-               .sky = Sky(settings.sky, irradiance),
+               .sky = Sky(settings.sky, irradiance, read_sky_picture(settings, irradiance)),
                .surfaces = make_surfaces(settings, options),
                .air = settings.sky.type == "clear" ? std::optional(media::Atmosphere(settings.sky.air)) : std::nullopt,
                .camera = make_camera(settings.camera)};

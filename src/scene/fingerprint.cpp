@@ -55,6 +55,7 @@ SceneIdentity scene_identity(const SceneSettings& settings) {
   Naming naming(settings.folder);
   named.film.exposure_ev = 0;
   if (named.sun.spectrum != "solar" && named.sun.spectrum != "equal_energy") naming.file(named.sun.spectrum);
+  if (named.sky.type == "image") naming.file(named.sky.file);
   for (MediumSettings& medium : named.media) {
     naming.recipe(medium);
     naming.file(medium.vdb);
