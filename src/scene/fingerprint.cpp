@@ -61,8 +61,11 @@ SceneIdentity scene_identity(const SceneSettings& settings) {
     naming.file(medium.vdb);
   }
   for (SurfaceSettings& surface : named.surfaces) {
-    if (surface.shape.type == "mesh") naming.file(surface.shape.file);
+    if (surface.shape.type == "mesh" || surface.shape.type == "terrain") naming.file(surface.shape.file);
     naming.index(surface.material);
+    if (surface.material.type != "matte") continue;
+    if (surface.material.pattern == "image") naming.file(surface.material.image);
+    else if (!surface.material.albedo_file.empty()) naming.file(surface.material.albedo_file);
   }
   for (DropletsSettings& drops : named.droplets) naming.index(drops.material);
   SceneIdentity identity{"", std::move(naming).inputs()};
