@@ -83,12 +83,12 @@ class Tree {
     }
     const Sky& sky = scene_.sky;
     if (sky.is_asked()) {
-      const Vec3 to_sky = sky.draw(random_.uniform_double(), random_.uniform_double());
-      const double cosine = dot(hit.normal, to_sky), asked = sky.density_per_sr(to_sky);
-      ++work_.sun_rays;
-      if (cosine > 0 && asked > 0 && !scene_.surfaces.is_blocked({hit.position_m, to_sky}, hit.departure(false)))
-        total_ += b.light.contribution(sky.radiance(to_sky, wavelengths_) * matte.value_per_sr(hit.position_m, hit.normal, to_sky, wavelengths_)) *
-                  static_cast<float>(cosine / (asked + Matte::density_per_sr(hit.normal, to_sky)));
+      const auto to_sky = sky.draw(random_.uniform_double(), random_.uniform_double());
+      const double cosine = to_sky ? dot(hit.normal, *to_sky) : 0;
+      work_.sun_rays += cosine > 0;
+      if (cosine > 0 && !scene_.surfaces.is_blocked({hit.position_m, *to_sky}, hit.departure(false)))
+        total_ += b.light.contribution(sky.radiance(*to_sky, wavelengths_) * matte.value_per_sr(hit.position_m, hit.normal, *to_sky, wavelengths_)) *
+                  static_cast<float>(cosine / (sky.density_per_sr(*to_sky) + Matte::density_per_sr(hit.normal, *to_sky)));
     }
     const Vec3 away = Matte::draw(hit.normal, random_.uniform_double(), random_.uniform_double());
     // The cosine and the factor pi cancel between value and density.

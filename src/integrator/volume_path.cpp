@@ -317,16 +317,14 @@ bool VolumePath::turn(Path& path, const Vec3& position_m, const phase::PhaseFunc
 
   const Sky& sky = scene_.sky;
   const bool asks_sky = sky.is_asked() && !function.parts_wavelengths();  // oriented crystals know their value for sunlight alone
-  if (asks_sky) {
-    const Vec3 to_sky = sky.draw(random.uniform_double(), random.uniform_double());
-    const double density_of_sky = sky.density_per_sr(to_sky);
+  if (const auto drawn = asks_sky ? sky.draw(random.uniform_double(), random.uniform_double()) : std::nullopt) {
+    const Vec3& to_sky = *drawn;
     const Spectrum value = function.value(incoming, to_sky, wavelengths);
-    const double asked = path.density.mean() * density_of_sky, found = (path.density * density(to_sky, value).all).mean();
+    const double asked = path.density.mean() * sky.density_per_sr(to_sky), found = (path.density * density(to_sky, value).all).mean();
     // In units of the sky's mean: it is as much brighter there as it is likelier drawn, and what paths find themselves is not asked for.
-    const auto share = static_cast<float>(asked / (asked + found));
-    if (const float weight = density_of_sky > 0 ? ray_weight(value * share, 1) : 0; weight > 0)
+    if (const float weight = ray_weight(value * static_cast<float>(asked / (asked + found)), 1); weight > 0)
       sample.total += path.contribution(value * sky.radiance(to_sky, wavelengths) * sun_transmittance(position_m, {}, to_sky, sample)) *
-                      static_cast<float>(weight * share / density_of_sky);
+                      static_cast<float>(weight * path.density.mean() / (asked + found));
   }
 
   if (function.parts_wavelengths() && !path.is_alone()) {
@@ -430,13 +428,13 @@ void VolumePath::reflect(Path& path, const Hit& hit, const Matte& material, Samp
                       static_cast<float>(cosine / (sun.density_per_sr(to_sun) + density(to_sun)));
   }
   const Sky& sky = scene_.sky;
-  if (sky.is_asked()) {
-    const Vec3 to_sky = sky.draw(random.uniform_double(), random.uniform_double());
-    const double cosine = dot(hit.normal, to_sky), asked = sky.density_per_sr(to_sky);
-    if (cosine > 0 && asked > 0)
+  if (const auto drawn = sky.is_asked() ? sky.draw(random.uniform_double(), random.uniform_double()) : std::nullopt) {
+    const Vec3& to_sky = *drawn;
+    const double cosine = dot(hit.normal, to_sky);
+    if (cosine > 0)
       sample.total += path.contribution(sky.radiance(to_sky, wavelengths) * material.value_per_sr(hit.position_m, hit.normal, to_sky, wavelengths) *
                                         sun_transmittance(hit.position_m, departure, to_sky, sample)) *
-                      static_cast<float>(cosine / (asked + density(to_sky)));
+                      static_cast<float>(cosine / (sky.density_per_sr(to_sky) + density(to_sky)));
   }
   const auto leave = [&](Path& leaving, const Vec3& away) {
     const double cosine = dot(hit.normal, away), found = density(away);

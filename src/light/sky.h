@@ -2,6 +2,7 @@
 // The light that comes from everywhere but the sun.
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "media/air/atmosphere.h"
@@ -34,12 +35,14 @@ class Sky {
   /// Radiance from a direction (unit, from the scene) [W m-2 sr-1 nm-1].
   Spectrum radiance(const Vec3& direction, const Wavelengths& wavelengths) const;
   bool is_dark() const { return radiance_ == 0 && !image_; }
+  bool is_image() const { return image_ != nullptr; }
 
-  /// Whether it is asked for its light as the sun is. Others are found by paths that leave the scene, which serves as well where light is much the same all around.
-  bool is_asked() const { return image_ != nullptr; }
-  /// A direction to ask, as likely as it is bright there; u, v in [0, 1).
-  Vec3 draw(double u, double v) const { return image_->draw(u, v); }
-  /// Density of draw() [1/sr]; 0 where it is not asked.
+  /// Whether it has bright places that are asked for their light as the sun is. All else is found by paths that leave the scene, which serves as well where
+  /// light is much the same all around.
+  bool is_asked() const { return image_ && image_->is_asked(); }
+  /// A direction to ask, or nothing: light/sky_image.h. Where it is asked; u, v in [0, 1).
+  std::optional<Vec3> draw(double u, double v) const { return image_->draw(u, v); }
+  /// Density of draw() [1/sr], less than 1 in all; 0 where it is not asked.
   double density_per_sr(const Vec3& direction) const { return image_ ? image_->density_per_sr(direction) : 0; }
 
  private:

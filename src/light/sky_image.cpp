@@ -8,21 +8,28 @@
 namespace arcus::render {
 
 SkyImage::SkyImage(Raster rgb, ThreeSpectra basis, double azimuth_deg)
-    : rgb_(std::move(rgb)), basis_(std::move(basis)), azimuth_rad_(radians(azimuth_deg)), flux_(0), aliases_(rgb_.pixels()) {
-  // Each pixel's share of the light, times the number of pixels.
+    : rgb_(std::move(rgb)), basis_(std::move(basis)), azimuth_rad_(radians(azimuth_deg)), aliases_(rgb_.pixels()) {
+  // Each pixel's share of what is asked for, times the number of pixels.
   const auto width = static_cast<std::size_t>(rgb_.width);
   std::vector<double> share(rgb_.pixels());
-  double sum = 0;
-  for (int y = 0; y < rgb_.height; ++y) {
-    const double band = upper_sine(y) - upper_sine(y + 1);
-    for (int x = 0; x < rgb_.width; ++x) {
-      double& here = share[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)];
-      here = brightness(rgb_.at(x, y)) * band;
-      sum += here;
+  const auto integrated = [&](const auto& value) {
+    double sum = 0;
+    for (int y = 0; y < rgb_.height; ++y) {
+      const double solid_angle = (upper_sine(y) - upper_sine(y + 1)) * 2 * pi / rgb_.width;
+      for (int x = 0; x < rgb_.width; ++x) sum += share[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] = value(rgb_.at(x, y)) * solid_angle;
     }
+    return sum;
+  };
+  flux_ = integrated(brightness);
+  // With a part in a million more, lest rounding finds something to ask in an even sky.
+  plain_ = 2 * flux_ / (4 * pi) * (1 + 1e-6);
+  const double asked = integrated([this](const float* rgb) { return excess(rgb); });
+  share_asked_ = asked / flux_;
+  if (!is_asked()) {
+    aliases_ = {};
+    return;
   }
-  flux_ = sum * 2 * pi / rgb_.width;
-  for (double& here : share) here *= static_cast<double>(share.size()) / sum;
+  for (double& here : share) here *= static_cast<double>(share.size()) / asked;
 
   // From below grow the pixels with less than the mean, from above those with more.
   std::vector<std::uint32_t> order(share.size());
@@ -56,8 +63,9 @@ int SkyImage::row(const Vec3& direction) const {
 
 double SkyImage::upper_sine(int row) const { return std::cos(pi * row / rgb_.height); }
 
-Vec3 SkyImage::draw(double u, double v) const {
-  const double place = u * static_cast<double>(aliases_.size());
+std::optional<Vec3> SkyImage::draw(double u, double v) const {
+  if (!(u < share_asked_)) return std::nullopt;
+  const double place = u / share_asked_ * static_cast<double>(aliases_.size());
   const std::size_t bin = std::min(static_cast<std::size_t>(place), aliases_.size() - 1);
   const Alias& alias = aliases_[bin];
   const double rest = place - static_cast<double>(bin), own = static_cast<double>(alias.own);
@@ -70,7 +78,7 @@ Vec3 SkyImage::draw(double u, double v) const {
   const double azimuth = azimuth_rad_ + 2 * pi * ((x + within(across)) / rgb_.width - 0.5);
   const double sine = upper_sine(y) + (upper_sine(y + 1) - upper_sine(y)) * within(v);
   const double cosine = std::sqrt(std::max(0.0, 1 - sine * sine));
-  return {std::sin(azimuth) * cosine, std::cos(azimuth) * cosine, sine};
+  return Vec3(std::sin(azimuth) * cosine, std::cos(azimuth) * cosine, sine);
 }
 
 }  // namespace arcus::render
