@@ -159,7 +159,49 @@ std::unique_ptr<ImageOutput> png_output(int width_px, int height_px, bool has_fe
                                         std::make_unique<OIIO::Filesystem::IOVecOutput>(bytes));
 }
 
+/// The positions of R, G and B among a file's channels, or of the one that stands for all; the first ones where none has such a name.
+std::vector<int> colours_in(const OIIO::ImageSpec& spec, int wanted) {
+  std::vector<int> found;
+  if (wanted == 3)
+    for (const std::string_view name : {"R", "G", "B"})
+      for (int c = 0; c < spec.nchannels; ++c)
+        if (spec.channelnames[static_cast<std::size_t>(c)] == name) found.push_back(c);
+  if (found.size() == 3) return found;
+  if (wanted == 3 && spec.nchannels >= 3) return {0, 1, 2};
+  return std::vector<int>(static_cast<std::size_t>(wanted), 0);
+}
+
+StoredRaster read_raster(const std::string& path, const std::string& where, int channels) {
+  const std::string place = where + ": " + path;
+  if (!std::filesystem::is_regular_file(path)) throw bad_input(place, "no file", "a picture expected", "Check the name and the folder");
+  OIIO::ImageSpec as_stored;
+  as_stored.attribute("oiio:UnassociatedAlpha", 1);  // or colours come multiplied by the opacity
+  const auto input = OIIO::ImageInput::open(path, &as_stored);
+  if (!input) throw bad_input(place, "no readable picture (" + one_line(OIIO::geterror()) + ")", "EXR, PNG, TIFF or another kind that OpenImageIO reads expected");
+  const OIIO::ImageSpec& spec = input->spec();
+  if (spec.deep || spec.depth > 1) throw bad_input(place, "a deep picture", "one value a pixel and channel expected");
+  if (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width || spec.height != spec.full_height)
+    throw bad_input(place, "a part of a picture", "a whole one expected");
+  constexpr double most_pixels = 1 << 26;
+  if (static_cast<double>(spec.width) * spec.height > most_pixels)
+    throw bad_input(place, std::to_string(spec.width) + " x " + std::to_string(spec.height) + " pixels", "at most 67108864 pixels in all expected", "Make it smaller first");
+  StoredRaster stored{{spec.width, spec.height, channels, {}}, !spec.format.is_floating_point()};
+  const std::vector<int> from = colours_in(spec, channels);
+  const int first = *std::min_element(from.begin(), from.end()), read = *std::max_element(from.begin(), from.end()) + 1 - first;
+  std::vector<float>& values = stored.raster.values;
+  values.resize(stored.raster.pixels() * static_cast<std::size_t>(read));
+  if (!input->read_image(0, 0, first, first + read, OIIO::TypeDesc::FLOAT, values.data()))
+    throw bad_input(place, "a damaged or cut off picture (" + one_line(input->geterror()) + ")", "a whole file expected");
+  if (read == channels && std::is_sorted(from.begin(), from.end())) return stored;
+  std::vector<float> sorted(stored.raster.pixels() * static_cast<std::size_t>(channels));
+  for (std::size_t pixel = 0; pixel < stored.raster.pixels(); ++pixel)
+    for (std::size_t c = 0; c < from.size(); ++c) sorted[pixel * from.size() + c] = values[pixel * static_cast<std::size_t>(read) + static_cast<std::size_t>(from[c] - first)];
+  values = std::move(sorted);
+  return stored;
+}
+
 }  // namespace
 }  // namespace arcus::render
 
-const arcus::render::ImageCodec arcus_image_codec{&arcus::render::exr_output, &arcus::render::read_exr, &arcus::render::png_output};
+const arcus::render::ImageCodec arcus_image_codec{&arcus::render::exr_output, &arcus::render::read_exr, &arcus::render::png_output,
+                                            &arcus::render::read_raster};

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "phase/base/raster.h"
 #include "src/film/image.h"
 
 namespace arcus::render {
@@ -20,12 +21,20 @@ class ImageOutput {
   virtual void close() = 0;
 };
 
+/// What a file has in its first channels, and how.
+struct StoredRaster {
+  Raster raster;           ///< whole numbers over the largest that their type can hold
+  bool is_whole = false;   ///< whole numbers
+};
+
 struct ImageCodec {
   /// Writes to `temporary_path`; messages speak of `path`.
   std::unique_ptr<ImageOutput> (*exr_output)(const std::string& path, const std::string& temporary_path, const ImageHeader& header);
   Image (*read_exr)(const std::string& path);
   /// Writes to the end of `bytes`, which outlives the output.
   std::unique_ptr<ImageOutput> (*png_output)(int width_px, int height_px, bool has_few_colours, std::vector<unsigned char>& bytes);
+  /// With 1 channel or 3; messages begin with `where`.
+  StoredRaster (*read_raster)(const std::string& path, const std::string& where, int channels);
 };
 
 }  // namespace arcus::render

@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 
 #include <cassert>
+#include <cmath>
 #include <string>
 
 #include "phase/base/error.h"
@@ -60,6 +61,35 @@ void write_exr(const std::string& path, const Image& image) {
 }
 
 Image read_exr(const std::string& path) { return codec().read_exr(path); }
+
+namespace {
+
+void require_finite(const Raster& raster, const std::string& place) {
+  const auto channels = static_cast<std::size_t>(raster.channels), width = static_cast<std::size_t>(raster.width);
+  for (std::size_t i = 0; i < raster.values.size(); ++i)
+    if (!std::isfinite(raster.values[i]))
+      throw bad_input(place, "a value that is not finite in column " + std::to_string(i / channels % width) + ", row " + std::to_string(i / channels / width), "finite values expected");
+}
+
+float from_srgb(float coded) {
+  return coded <= 0.04045f ? coded / 12.92f : std::pow((coded + 0.055f) / 1.055f, 2.4f);
+}
+
+}  // namespace
+
+Raster read_colours(const std::string& path, const std::string& where) {
+  StoredRaster stored = codec().read_raster(path, where, 3);
+  if (stored.is_whole)
+    for (float& value : stored.raster.values) value = from_srgb(value);
+  require_finite(stored.raster, where + ": " + path);
+  return std::move(stored.raster);
+}
+
+Raster read_heights(const std::string& path, const std::string& where) {
+  StoredRaster stored = codec().read_raster(path, where, 1);
+  require_finite(stored.raster, where + ": " + path);
+  return std::move(stored.raster);
+}
 
 PngWriter::PngWriter(std::string path, int width_px, int height_px)
     : path_(std::move(path)),

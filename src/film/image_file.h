@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "phase/base/raster.h"
 #include "phase/base/whole_file.h"
 #include "src/film/image.h"
 #include "src/film/tone.h"
@@ -43,6 +44,14 @@ void write_exr(const std::string& path, const Image& image);
 /// Reads an EXR file (half and float channels alike; the first part of several). Throws bad_input
 /// where it is missing, damaged, cut off or no such picture.
 Image read_exr(const std::string& path);
+
+/// R, G and B of a picture of any kind that OpenImageIO reads, linear: whole numbers are decoded from sRGB (IEC 61966-2-1), 1 being the
+/// largest; floating-point numbers are linear already. Grey pictures have three equal values. Opacity is ignored. Throws bad_input,
+/// beginning with `where`: missing, damaged, more than 2^26 pixels, values that are not finite.
+Raster read_colours(const std::string& path, const std::string& where);
+
+/// The first channel as it is, whole numbers over the largest that their type can hold (all 16 bits of a PNG count). Throws as read_colours.
+Raster read_heights(const std::string& path, const std::string& where);
 
 /// An 8-bit sRGB PNG that is written from top to bottom; the file itself when it is committed, whole or not at all. All throw cannot()
 /// where it cannot be written.

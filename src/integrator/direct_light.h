@@ -7,12 +7,24 @@
 namespace arcus::render {
 
 /// Radiance towards the ray's origin [W m-2 sr-1 nm-1]: sunlight from one place of the disc, drawn anew each time, and the sky as bright as it is
-/// straight over the surface, from everywhere. `is_lit`: whether the sun's light arrives along a direction.
+/// straight over the surface, from everywhere; a picture of the sky, from a bright place of it and a direction of the surface's own, both drawn. `is_lit`: whether light from outside arrives along a direction.
 template <class IsLit>
 Spectrum direct_light(const Scene& scene, const Hit& hit, const Matte& matte, const Wavelengths& wavelengths, const SunLight& sunlight, Random& random,
                       IsLit is_lit) {
   const Spectrum albedo = matte.albedo_at(hit.position_m).at(wavelengths);
-  Spectrum light = albedo * scene.sky.radiance(hit.normal, wavelengths);
+  Spectrum light;
+  if (const Sky& sky = scene.sky; sky.is_image()) {
+    const auto add = [&](const Vec3& to_sky) {
+      const double cosine = dot(hit.normal, to_sky);
+      if (cosine > 0 && is_lit(to_sky))
+        light += albedo * sky.radiance(to_sky, wavelengths) * static_cast<float>(cosine / (pi * (sky.density_per_sr(to_sky) + Matte::density_per_sr(hit.normal, to_sky))));
+    };
+    if (sky.is_asked())
+      if (const auto to_sky = sky.draw(random.uniform_double(), random.uniform_double())) add(*to_sky);
+    add(Matte::draw(hit.normal, random.uniform_double(), random.uniform_double()));
+  } else {
+    light = albedo * sky.radiance(hit.normal, wavelengths);
+  }
   if (!scene.sun.is_on()) return light;
   const Vec3 to_sun = scene.sun.draw(random.uniform_double(), random.uniform_double());
   const double cosine = dot(hit.normal, to_sun);

@@ -12,8 +12,8 @@ namespace arcus::render {
 /// What estimates took, counted.
 struct Work {
   long long scatterings = 0;            ///< in media
-  long long tentative_collisions = 0;   ///< of paths, real ones included; not those of rays to the sun
-  long long sun_rays = 0;               ///< from points in media and on surfaces
+  long long tentative_collisions = 0;   ///< of paths, real ones included; not those of rays to sun and sky
+  long long sun_rays = 0;               ///< to the sun, and to a sky that is asked, from points in media and on surfaces
   long long surface_hits = 0;           ///< of paths
 
   Work& operator+=(const Work& other) {

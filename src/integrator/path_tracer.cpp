@@ -20,6 +20,7 @@ struct Branch {
   Departure departure;
   float share = 1;      ///< of the path, of which it was split off
   float sun_share = 1;  ///< of a direct hit of the sun; the rest was found by asking it
+  float sky_share = 1;  ///< of the sky's light, likewise
   long long bounce = 0;
 };
 
@@ -47,7 +48,7 @@ class Tree {
   bool goes_on(Branch& b) {
     const auto hit = scene_.surfaces.nearest_hit(b.ray, b.departure);
     if (!hit) {
-      total_ += b.light.contribution(scene_.sky.radiance(b.ray.direction, wavelengths_) + scene_.sun.radiance(b.ray.direction, sunlight_) * b.sun_share);
+      total_ += b.light.contribution(scene_.sky.radiance(b.ray.direction, wavelengths_) * b.sky_share + scene_.sun.radiance(b.ray.direction, sunlight_) * b.sun_share);
       return false;
     }
     if (b.bounce++ == max_bounces_) return false;
@@ -80,12 +81,22 @@ class Tree {
                   static_cast<float>(cosine / density);
       }
     }
+    const Sky& sky = scene_.sky;
+    if (sky.is_asked()) {
+      const auto to_sky = sky.draw(random_.uniform_double(), random_.uniform_double());
+      const double cosine = to_sky ? dot(hit.normal, *to_sky) : 0;
+      work_.sun_rays += cosine > 0;
+      if (cosine > 0 && !scene_.surfaces.is_blocked({hit.position_m, *to_sky}, hit.departure(false)))
+        total_ += b.light.contribution(sky.radiance(*to_sky, wavelengths_) * matte.value_per_sr(hit.position_m, hit.normal, *to_sky, wavelengths_)) *
+                  static_cast<float>(cosine / (sky.density_per_sr(*to_sky) + Matte::density_per_sr(hit.normal, *to_sky)));
+    }
     const Vec3 away = Matte::draw(hit.normal, random_.uniform_double(), random_.uniform_double());
     // The cosine and the factor pi cancel between value and density.
     b.light.weight *= matte.albedo_at(hit.position_m).at(wavelengths_);
     b.light.polarised.depolarise();
     const double found = Matte::density_per_sr(hit.normal, away);
     b.sun_share = static_cast<float>(found / (sun.density_per_sr(away) + found));
+    b.sky_share = sky.is_asked() ? static_cast<float>(found / (sky.density_per_sr(away) + found)) : 1;
     b.departure = hit.departure(false);
     b.ray = media::Ray{hit.position_m, away};
   }
@@ -114,7 +125,7 @@ class Tree {
     branch.departure = hit.departure(crosses);
     branch.ray = media::Ray{hit.position_m, turn.direction};
     branch.share = share;
-    branch.sun_share = 1;
+    branch.sun_share = branch.sky_share = 1;
     waiting_.push_back(branch);
   }
 

@@ -123,7 +123,7 @@ void PhotonTracer::add_targets() {
       const double u2 = squared_length(flat.edge_u_m), v2 = squared_length(flat.edge_v_m), both = 2 * std::fabs(dot(flat.edge_u_m, flat.edge_v_m));
       add({flat.centre_m, std::sqrt(u2 + v2 + both)}, {g, i});
     }
-    if (!group.triangles.empty()) add(around(bounds_of(group)), {g, PieceId::none});
+    if (group.triangle_count() > 0) add(around(bounds_of(group)), {g, PieceId::none});
   }
   for (const PieceId& plane : scene_.surfaces.smooth_planes()) add(region_, plane);
 }

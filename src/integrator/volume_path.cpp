@@ -62,6 +62,8 @@ struct VolumePath::Path : PathLight {
   /// Share that a direct hit of the sun's disc counts: the rest was, or will be, found by asking the sun. 1 for what
   /// the camera sees directly.
   float sun_share = 1;
+  /// The same of the sky's light, where it is asked.
+  float sky_share = 1;
   /// How bright it is likely to be where the path goes, in units of the mean over all directions.
   float promise = 1;
   /// The weight of what the camera sees, in whose units it is judged what a path may bring.
@@ -287,7 +289,7 @@ bool VolumePath::pass(Path& path, const Hit& hit, Sample& sample) const {
 }
 
 Spectrum VolumePath::escaped(const Path& path, double distance_m, const Sample& sample) const {
-  Spectrum light = scene_.sky.radiance(path.ray.direction, sample.wavelengths), sun;
+  Spectrum light = scene_.sky.radiance(path.ray.direction, sample.wavelengths) * path.sky_share, sun;
   if (path.sun_share > 0) sun = scene_.sun.radiance(path.ray.direction, sample.sunlight) * path.sun_share;
   if (scene_.sky_table) {
     const media::Ray on{path.ray.at(distance_m), path.ray.direction};
@@ -330,15 +332,15 @@ bool VolumePath::turn(Path& path, const Vec3& position_m, const phase::PhaseFunc
     return {own * (1 - again_share) + to_sun * (to_sun_share + again_share), to_sun};
   };
 
-  // 0 for rays to the sun that are not sent; what the others stand for.
-  const auto sun_ray_weight = [&](const Spectrum& value) -> float {
+  // 0 for rays to sun or sky that are not sent; what the others stand for.
+  const auto ray_weight = [&](const Spectrum& value, float transmittance) -> float {
     const float mean_or_more = 4 * static_cast<float>(pi) * value.max();
-    const float transmittance = std::exp(-believed_depth * sun_reach_.optical_depth(position_m));
     const float expected = path.weight.mean() / (path.density.mean() * path.seen_weight) * mean_or_more * transmittance;
     const float enough = path.bounces > 1 ? enough_for_sun_ray : enough_for_first_sun_ray;
     const float probability = std::clamp(expected / enough, least_sun_rays, 1.f);
     return probability == 1 ? 1 : random.uniform() < probability ? 1 / probability : 0;
   };
+  const auto sun_ray_weight = [&](const Spectrum& value) { return ray_weight(value, std::exp(-believed_depth * sun_reach_.optical_depth(position_m))); };
   if (sun.is_on()) {
     const Vec3 to_sun = sun.draw(random.uniform_double(), random.uniform_double());
     if (function.includes_sun_disc()) {
@@ -358,6 +360,18 @@ bool VolumePath::turn(Path& path, const Vec3& position_m, const phase::PhaseFunc
     }
   }
 
+  const Sky& sky = scene_.sky;
+  const bool asks_sky = sky.is_asked() && !function.parts_wavelengths();  // oriented crystals know their value for sunlight alone
+  if (const auto drawn = asks_sky ? sky.draw(random.uniform_double(), random.uniform_double()) : std::nullopt) {
+    const Vec3& to_sky = *drawn;
+    const Spectrum value = function.value(incoming, to_sky, wavelengths);
+    const double asked = path.density.mean() * sky.density_per_sr(to_sky), found = (path.density * density(to_sky, value).all).mean();
+    // In units of the sky's mean: it is as much brighter there as it is likelier drawn, and what paths find themselves is not asked for.
+    if (const float weight = ray_weight(value * static_cast<float>(asked / (asked + found)), 1); weight > 0)
+      sample.total += path.contribution(value * sky.radiance(to_sky, wavelengths) * sun_transmittance(position_m, {}, to_sky, sample)) *
+                      static_cast<float>(weight * path.density.mean() / (asked + found));
+  }
+
   if (function.parts_wavelengths() && !path.is_alone()) {
     part(path, position_m, function, sample);
     return false;
@@ -370,6 +384,12 @@ bool VolumePath::turn(Path& path, const Vec3& position_m, const phase::PhaseFunc
       const double asked = leaving.density.mean() * sun.density_per_sr(outgoing);
       const double found = (leaving.density * densities.all).mean();
       leaving.sun_share = static_cast<float>(found / (asked + found));
+    }
+    if (asks_sky) {
+      const double found = (leaving.density * densities.all).mean();
+      leaving.sky_share = static_cast<float>(found / (leaving.density.mean() * sky.density_per_sr(outgoing) + found));
+    } else {
+      leaving.sky_share = 1;
     }
     leaving.weight *= value / densities.all[0];
     leaving.density *= densities.all / densities.all[0];
@@ -409,6 +429,7 @@ void VolumePath::part(const Path& path, const Vec3& position_m, const phase::Pha
     one.density = {1, 0, 0, 0};
     one.weight = draw.value_per_sr * share[j];
     one.sun_share = 0;
+    one.sky_share = 1;
     one.promise = 1;
     one.leave(position_m, draw.outgoing);
     follow(one, alone);
@@ -424,8 +445,8 @@ bool VolumePath::meet(Path& path, const Hit& hit, Sample& sample) const {
     reflect(path, hit, *matte, sample);
     return true;
   }
-  // Nothing was asked for light that arrives this way, so a direct hit of the sun counts in full.
-  path.sun_share = 1;
+  // Nothing was asked for light that arrives this way, so a direct hit of the sun counts in full, and the sky.
+  path.sun_share = path.sky_share = 1;
   path.promise = 1;
   return turn_at_smooth(path, path.ray, path.departure, hit, sample.wavelengths, sample.random);
 }
@@ -451,9 +472,19 @@ void VolumePath::reflect(Path& path, const Hit& hit, const Matte& material, Samp
                                         sun_transmittance(hit.position_m, departure, to_sun, sample)) *
                       static_cast<float>(cosine / (sun.density_per_sr(to_sun) + density(to_sun)));
   }
+  const Sky& sky = scene_.sky;
+  if (const auto drawn = sky.is_asked() ? sky.draw(random.uniform_double(), random.uniform_double()) : std::nullopt) {
+    const Vec3& to_sky = *drawn;
+    const double cosine = dot(hit.normal, to_sky);
+    if (cosine > 0)
+      sample.total += path.contribution(sky.radiance(to_sky, wavelengths) * material.value_per_sr(hit.position_m, hit.normal, to_sky, wavelengths) *
+                                        sun_transmittance(hit.position_m, departure, to_sky, sample)) *
+                      static_cast<float>(cosine / (sky.density_per_sr(to_sky) + density(to_sky)));
+  }
   const auto leave = [&](Path& leaving, const Vec3& away) {
     const double cosine = dot(hit.normal, away), found = density(away);
     leaving.sun_share = static_cast<float>(found / (sun.density_per_sr(away) + found));
+    leaving.sky_share = sky.is_asked() ? static_cast<float>(found / (sky.density_per_sr(away) + found)) : 1;
     leaving.weight *= cosine > 0 ? material.value_per_sr(hit.position_m, hit.normal, away, wavelengths) * static_cast<float>(cosine / found) : Spectrum();
     leaving.promise = promise(to_sun_share, to_sun_density(away));
     leaving.ray = media::Ray{hit.position_m, away};

@@ -84,7 +84,7 @@ class VolumePath : public Integrator {
   /// Reflects from a surface, or goes through it: adds sunlight, turns the path. False where it ends.
   bool meet(Path& path, const Hit& hit, Sample& sample) const;
   void reflect(Path& path, const Hit& hit, const Matte& material, Sample& sample) const;
-  /// Share of the sun's light that reaches a point from a direction without detours [0 to 1].
+  /// Share of the light from outside, of sun or sky, that reaches a point from a direction without detours [0 to 1].
   Spectrum sun_transmittance(const Vec3& position_m, const Departure& departure, const Vec3& to_sun, Sample& sample) const;
 
   const Scene& scene_;

@@ -5,7 +5,7 @@
 namespace arcus::render {
 
 void list_keys(Keys& keys, SkySettings& sky) {
-  keys.choice("type", sky.type, {"none", "constant", "clear"}, "what surrounds the scene; clear: the air of a round planet, which scatters the sun's light, dims all that is seen through it, and ends on matte ground at z = 0 where no surface is");
+  keys.choice("type", sky.type, {"none", "constant", "clear", "image"}, "what surrounds the scene; image: a picture of the whole sphere; clear: the air of a round planet, which scatters the sun's light, dims all that is seen through it, and ends on matte ground at z = 0 where no surface is");
   if (keys.only_if(sky.type == "constant", "type = constant")) {
     keys.number("radiance", sky.radiance, at_least(0), "the same in all directions, at 550 nm [W m-2 sr-1 nm-1]");
     keys.choice("spectrum", sky.spectrum, {"flat", "sun", "rayleigh"},
@@ -26,6 +26,13 @@ void list_keys(Keys& keys, SkySettings& sky) {
     keys.number("ozone_dobson_units", sky.air.ozone_dobson_units, between(0, 1000), "ozone between 10 and 40 km: 250 in the tropics, 300 to 450 elsewhere; it keeps the dusk blue");
     keys.number("planet_radius_m", sky.air.planet_radius_m, between(1e5, 1e12), "the planet's centre is so far below the origin; very large: flat layers");
   }
+  if (keys.only_if(sky.type == "image", "type = image")) {
+    keys.text("file", sky.file, "equirectangular picture, twice as wide as high, relative to the scene file: EXR or another kind; linear Rec.709 R, G, B as Arcus writes them [W m-2 sr-1 nm-1]; whole numbers are sRGB, 1 at the most");
+    if (sky.file.empty() && !keys.documents()) keys.refuse("file", "nothing", "the name of a picture expected");
+    keys.number("scale", sky.scale, above(0), "multiplies the values");
+    keys.number("azimuth_deg", sky.azimuth_deg, any(), "compass azimuth that the middle of the picture shows; to the right of it, clockwise: camera.azimuth_deg of a picture by the camera equirectangular");
+    keys.flag("clips_negative", sky.clips_negative, "values below 0, of colours beyond Rec.709 or of noise, count as 0; otherwise they are refused");
+  }
 }
 
 media::AirSettings air_of(const SkySettings& sky) {
@@ -36,10 +43,11 @@ media::AirSettings air_of(const SkySettings& sky) {
   return air;
 }
 
-Sky::Sky(const SkySettings& settings, const Curve& sun_irradiance)
+Sky::Sky(const SkySettings& settings, const Curve& sun_irradiance, std::shared_ptr<const SkyImage> image)
     : radiance_(settings.type == "constant" ? static_cast<float>(settings.radiance) : 0.0f),
       is_flat_(settings.spectrum == "flat"),
-      is_blue_(settings.spectrum == "rayleigh") {
+      is_blue_(settings.spectrum == "rayleigh"),
+      image_(std::move(image)) {
   if (is_flat_) return;
   std::vector<double> values = sun_irradiance.y();
   const double at_550 = sun_irradiance(550);
@@ -47,7 +55,8 @@ Sky::Sky(const SkySettings& settings, const Curve& sun_irradiance)
   relative_ = Curve(sun_irradiance.x(), std::move(values), "sky.spectrum");
 }
 
-Spectrum Sky::radiance(const Vec3&, const Wavelengths& wavelengths) const {
+Spectrum Sky::radiance(const Vec3& direction, const Wavelengths& wavelengths) const {
+  if (image_) return image_->radiance(direction, wavelengths);
   if (is_flat_ || radiance_ == 0) return Spectrum::filled(radiance_);
   Spectrum result;
   for (int i = 0; i < wavelength_count; ++i) {

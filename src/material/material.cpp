@@ -1,5 +1,6 @@
 #include "src/material/material.h"
 
+#include "phase/base/error.h"
 #include "phase/settings/number_text.h"
 #include "phase/settings/toml_text.h"
 
@@ -32,10 +33,20 @@ void list_keys(Keys& keys, MaterialSettings& material) {
   if (keys.only_if(is_matte || material.type == "mirror", "matte, mirror"))
     list_colour(keys, "albedo", material.albedo, "share of the light that is reflected");
   if (keys.only_if(is_matte, "matte")) {
-    keys.choice("pattern", material.pattern, {"plain", "checker"}, "checker: cubes of two colours by turns, with a corner at the origin");
+    keys.text("albedo_file", material.albedo_file, "measured spectrum instead of albedo, relative to the scene file, two columns: wavelength in nm, share from 0 to 1");
+    keys.choice("pattern", material.pattern, {"plain", "checker", "image"},
+                "checker: cubes of two colours by turns, with a corner at the origin; image: the colours of a picture, laid out on the ground");
+    if (!keys.documents() && !material.albedo_file.empty() && material.pattern != "plain")
+      keys.refuse("albedo_file", "a file and a pattern of the kind " + material.pattern, "must be left out where there is a pattern");
     if (keys.only_if(material.pattern == "checker", "pattern = checker")) {
       list_colour(keys, "other_albedo", material.other_albedo, "of the other cubes");
       keys.number("pattern_m", material.pattern_m, above(0), "edge of a cube [m]");
+    }
+    if (keys.only_if(material.pattern == "image", "pattern = image")) {
+      keys.text("image", material.image, "picture of colours, north at its top, repeated without end, relative to the scene file: whole numbers are sRGB, floating-point ones linear Rec.709 from 0 to 1");
+      if (material.image.empty() && !keys.documents()) keys.refuse("image", "nothing", "the name of a picture expected");
+      keys.numbers("image_size_m", material.image_size_m, above(0), 2, 2, "of one copy of the picture, from west to east and from south to north");
+      keys.numbers("image_centre_m", material.image_centre_m, any(), 2, 2, "x and y of the middle of a copy: those of centre_m and size_m lay it on a terrain");
     }
   }
   if (keys.only_if(is_transparent, "transparent")) {
@@ -63,8 +74,36 @@ Turns Material::turns(const Vec3& incoming, const Vec3& normal, bool from_inside
   return mirror_turns(incoming, normal, std::get<Mirror>(kind_).reflectance.at(wavelengths), light);
 }
 
-Material make_material(const MaterialSettings& settings, const std::string& folder, const ColourToSpectrum& colour) {
+namespace {
+
+std::shared_ptr<const ColourMap> read_map(const MaterialSettings& settings, const std::string& folder, const SurfaceInputs& inputs, const std::string& where) {
+  const std::string path = path_from(folder, settings.image);
+  Raster rgb = inputs.colours(path, where);
+  for (std::size_t i = 0; i < rgb.values.size(); ++i)
+    if (const float value = rgb.values[i]; value < 0 || value > 1) {
+      const auto width = static_cast<std::size_t>(rgb.width);
+      throw bad_input(where + ": " + path, number_text(static_cast<double>(value)) + " in column " + std::to_string(i / 3 % width) + ", row " + std::to_string(i / 3 / width),
+                      "shares of the light from 0 to 1 expected");
+    }
+  return std::make_shared<const ColourMap>(std::move(rgb), inputs.basis(),
+                                           ColourMapPlace{settings.image_centre_m[0], settings.image_centre_m[1], settings.image_size_m[0], settings.image_size_m[1]});
+}
+
+std::shared_ptr<const Curve> read_albedo(const std::string& path) {
+  Columns table = read_columns_file(path);
+  if (table.columns.size() != 2) throw bad_input(path, std::to_string(table.columns.size()) + " columns", "two expected: wavelength [nm] and share of the light from 0 to 1");
+  for (const double share : table.columns[1])
+    if (!(share >= 0 && share <= 1)) throw bad_input(path, "a share of " + number_text(share), "shares of the light from 0 to 1 expected");
+  return std::make_shared<const Curve>(std::move(table.columns[0]), std::move(table.columns[1]), path);
+}
+
+}  // namespace
+
+Material make_material(const MaterialSettings& settings, const std::string& folder, const SurfaceInputs& inputs, const std::string& where) {
+  const ColourToSpectrum& colour = inputs.colour;
   if (settings.type == "matte") {
+    if (settings.pattern == "image") return Material(Matte(read_map(settings, folder, inputs, where)));
+    if (!settings.albedo_file.empty()) return Material(Matte(read_albedo(path_from(folder, settings.albedo_file))));
     if (settings.pattern == "checker") return Material(Matte(colour(settings.albedo), colour(settings.other_albedo), settings.pattern_m));
     return Material(Matte(colour(settings.albedo)));
   }

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "phase/base/raster.h"
 #include "phase/optics/refractive_index.h"
 #include "phase/settings/keys.h"
 #include "src/material/clear_body.h"
@@ -17,9 +18,13 @@ namespace arcus::render {
 struct MaterialSettings {
   std::string type = "matte";           ///< matte | mirror | transparent | dielectric
   std::vector<double> albedo{0.2};      ///< one number or linear R, G, B: matte and mirror
-  std::string pattern = "plain";        ///< plain | checker (matte)
+  std::string pattern = "plain";        ///< plain | checker | image (matte)
   std::vector<double> other_albedo{0.05};
   double pattern_m = 1;                 ///< edge of the squares
+  std::string image;                    ///< a picture of colours, relative to the scene file
+  std::vector<double> image_size_m{1000, 1000};  ///< of one copy of it, from west to east and from south to north
+  std::vector<double> image_centre_m{0, 0};      ///< x, y
+  std::string albedo_file;              ///< matte: two columns: nm (vacuum), share from 0 to 1; empty: albedo
   std::string index = "water";          ///< water | ice | mineral | a file | empty: index_constant (transparent, dielectric)
   phase::ConstantIndexSettings index_constant;
   double reflectance = 0.1, transmittance = 0.9;  ///< transparent: shares at every meeting
@@ -69,7 +74,15 @@ class Material {
 /// A spectrum between 0 and 1 for one number or linear R, G, B.
 using ColourToSpectrum = std::function<SmoothSpectrum(const std::vector<double>& colour)>;
 
-/// `folder`: where a file's relative path starts. Throws bad_input.
-Material make_material(const MaterialSettings& settings, const std::string& folder, const ColourToSpectrum& colour);
+/// What materials and shapes get from the rooms that know colours and pictures.
+struct SurfaceInputs {
+  ColourToSpectrum colour;
+  RasterReader colours;   ///< linear R, G, B
+  RasterReader heights;   ///< one channel
+  std::function<std::shared_ptr<const ThreeSpectra>()> basis;  ///< of reflectances
+};
+
+/// `folder`: where a file's relative path starts; `where` begins messages about pictures. Throws bad_input.
+Material make_material(const MaterialSettings& settings, const std::string& folder, const SurfaceInputs& inputs, const std::string& where);
 
 }  // namespace arcus::render

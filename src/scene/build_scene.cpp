@@ -11,8 +11,11 @@
 #include "phase/settings/number_text.h"
 #include "phase/settings/toml_text.h"
 #include "phase/species/make_species.h"
+#include "src/film/image_file.h"
+#include "src/scene/colour_basis.h"
 #include "src/scene/colour_spectrum.h"
 #include "src/scene/droplets_from_medium.h"
+#include "src/scene/sky_picture.h"
 
 namespace arcus::render {
 namespace {
@@ -175,16 +178,36 @@ PieceGroup drops_of_medium(const DropletsSettings& drops, const SceneSettings& s
   return std::move(drawn.group);
 }
 
+SurfaceInputs surface_inputs() {
+  return {spectrum_of_colour, read_colours, read_heights, [made = std::shared_ptr<const ThreeSpectra>()]() mutable {
+            if (!made) made = std::make_shared<const ThreeSpectra>(reflectance_basis());
+            return made;
+          }};
+}
+
+/// A camera under the land sees its underside: a mistake.
+void check_camera_above(const Terrain& terrain, const SurfaceSettings& surface, const SceneSettings& scene) {
+  const Vec3& eye = scene.camera.position_m;
+  const auto land_m = terrain.height_m(eye.x, eye.y);
+  if (land_m && !(eye.z > *land_m))
+    throw bad_input(scene.path + ": camera.position_m", "a place " + number_text(std::round(100 * (*land_m - eye.z)) / 100) + " m below the land of surface '" + surface.name + "'",
+                    "a height above " + number_text(std::round(100 * *land_m) / 100) + " m there expected");
+}
+
 Surfaces make_surfaces(const SceneSettings& scene, const BuildOptions& options) {
   SurfaceParts parts;
-  for (const SurfaceSettings& surface : scene.surfaces) parts.add(surface, scene.folder, spectrum_of_colour);
+  const SurfaceInputs inputs = surface_inputs();
+  for (const SurfaceSettings& surface : scene.surfaces) {
+    parts.add(surface, scene.folder, inputs);
+    if (surface.shape.type == "terrain") check_camera_above(*parts.groups.back().terrain, surface, scene);
+  }
   for (std::size_t i = 0; i < scene.droplets.size(); ++i) {
     const DropletsSettings& drops = scene.droplets[i];
     const std::string where = scene.path + ": droplets[" + std::to_string(i) + "]";
     MaterialSettings material = drops.material;
     material.enlargement = drops.scale;
     PieceGroup group = drops.medium.empty() ? drops_in_box(drops, where) : drops_of_medium(drops, scene, where, options, material);
-    parts.add(std::move(group), make_material(material, scene.folder, spectrum_of_colour));
+    parts.add(std::move(group), make_material(material, scene.folder, inputs, where));
   }
   return Surfaces(std::move(parts), scene.render.intersector == "exhaustive");
 }
@@ -241,7 +264,7 @@ Scene build_scene(const SceneSettings& settings, const BuildOptions& options) {
   const Curve irradiance = sun_irradiance(settings.sun, settings.folder);
   Scene scene{.medium = std::move(medium),
               .sun = Sun(settings.sun, irradiance),
-              .sky = Sky(settings.sky, irradiance),
+              .sky = Sky(settings.sky, irradiance, read_sky_picture(settings, irradiance)),
               .surfaces = make_surfaces(settings, options),
               .camera = make_camera(settings.camera)};
   if (settings.sky.type == "clear") add_air(settings, options, scene);

@@ -55,13 +55,17 @@ SceneIdentity scene_identity(const SceneSettings& settings) {
   Naming naming(settings.folder);
   named.film.exposure_ev = 0;
   if (named.sun.spectrum != "solar" && named.sun.spectrum != "equal_energy") naming.file(named.sun.spectrum);
+  if (named.sky.type == "image") naming.file(named.sky.file);
   for (MediumSettings& medium : named.media) {
     naming.recipe(medium);
     naming.file(medium.vdb);
   }
   for (SurfaceSettings& surface : named.surfaces) {
-    if (surface.shape.type == "mesh") naming.file(surface.shape.file);
+    if (surface.shape.type == "mesh" || surface.shape.type == "terrain") naming.file(surface.shape.file);
     naming.index(surface.material);
+    if (surface.material.type != "matte") continue;
+    if (surface.material.pattern == "image") naming.file(surface.material.image);
+    else if (!surface.material.albedo_file.empty()) naming.file(surface.material.albedo_file);
   }
   for (DropletsSettings& drops : named.droplets) naming.index(drops.material);
   SceneIdentity identity{"", std::move(naming).inputs()};

@@ -36,8 +36,8 @@ class Exhaustive : public Intersector {
           found(i);
       for (std::uint32_t i = 0; i < group.flats.size(); ++i)
         if (i != left && meet(rest, group.flats[i], meeting)) found(i);
-      for (std::uint32_t i = 0; i < group.triangles.size(); ++i)
-        if (i != left && is_within(ray, group.triangles[i]) && meet_plane_of(rest, group.triangles[i], meeting)) found(i);
+      for (std::uint32_t i = 0; i < group.triangle_count(); ++i)
+        if (const Triangle t = group.triangle(i); i != left && is_within(ray, t) && meet_plane_of(rest, t, meeting)) found(i);
     }
     return best;
   }

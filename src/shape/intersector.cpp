@@ -95,7 +95,7 @@ void filter(const RTCFilterFunctionNArguments* arguments) {
   auto& question = *reinterpret_cast<Question*>(arguments->context);
   const std::uint32_t piece = RTCHitN_primID(arguments->hit, 1, 0);
   Meeting meeting;
-  if (question.departure.from == PieceId{group.number, piece} || !meet_plane_of(question.ray, group.pieces->triangles[piece], meeting)) {
+  if (question.departure.from == PieceId{group.number, piece} || !meet_plane_of(question.ray, group.pieces->triangle(piece), meeting)) {
     arguments->valid[0] = 0;
     return;
   }
@@ -157,11 +157,12 @@ class Hierarchy : public Intersector {
       throw cannot("the hierarchy of surfaces", "embree reports " + error_);
   }
   void attach(Group& group) {
-    const bool is_mesh = !group.pieces->triangles.empty();
+    const bool is_mesh = group.pieces->triangle_count() > 0;
     RTCGeometry geometry = rtcNewGeometry(device_, is_mesh ? RTC_GEOMETRY_TYPE_TRIANGLE : RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryUserData(geometry, &group);
     if (is_mesh) {
-      fill(geometry, *group.pieces);
+      if (group.pieces->terrain) fill(geometry, *group.pieces->terrain);
+      else fill(geometry, group.pieces->triangles);
       rtcSetGeometryIntersectFilterFunction(geometry, filter);
       rtcSetGeometryOccludedFilterFunction(geometry, filter);
     } else {
@@ -174,17 +175,36 @@ class Hierarchy : public Intersector {
     rtcAttachGeometryByID(scene_, geometry, group.number);
     rtcReleaseGeometry(geometry);
   }
-  void fill(RTCGeometry geometry, const PieceGroup& group) const {
-    const std::size_t count = group.triangles.size();
-    auto* corners = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, 3 * count));
-    auto* numbers = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, count));
-    if (!corners || !numbers) throw cannot("the hierarchy of surfaces", "out of memory");
+  struct Buffers {
+    float* corners;
+    unsigned* numbers;
+  };
+  static Buffers new_buffers(RTCGeometry geometry, std::size_t corners, std::size_t triangles) {
+    const Buffers buffers{static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, corners)),
+                          static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, triangles))};
+    if (!buffers.corners || !buffers.numbers) throw cannot("the hierarchy of surfaces", "out of memory");
+    return buffers;
+  }
+  void put(float*& corners, const Vec3& corner_m) const {
+    for (int axis = 0; axis < 3; ++axis) *corners++ = static_cast<float>(corner_m[axis] - origin_m_[axis]);
+  }
+  void fill(RTCGeometry geometry, const std::vector<Triangle>& triangles) const {
+    auto [corners, numbers] = new_buffers(geometry, 3 * triangles.size(), triangles.size());
     unsigned number = 0;
-    for (const Triangle& t : group.triangles)
+    for (const Triangle& t : triangles)
       for (const Vec3& corner : {t.a_m, t.b_m, t.c_m}) {
-        for (int axis = 0; axis < 3; ++axis) *corners++ = static_cast<float>(corner[axis] - origin_m_[axis]);
+        put(corners, corner);
         *numbers++ = number++;
       }
+  }
+  void fill(RTCGeometry geometry, const Terrain& terrain) const {
+    auto [corners, numbers] = new_buffers(geometry, std::size_t{terrain.columns()} * terrain.rows(), terrain.triangles());
+    for (std::uint32_t row = 0; row < terrain.rows(); ++row)
+      for (std::uint32_t column = 0; column < terrain.columns(); ++column) put(corners, terrain.corner_m(column, row));
+    for (std::uint32_t i = 0; i < terrain.triangles(); ++i) {
+      const Terrain::Corners at = terrain.corners(i);
+      for (const std::uint32_t corner : {at.a, at.b, at.c}) *numbers++ = corner;
+    }
   }
   /// False where the ray passes all pieces by.
   bool prepare(const media::Ray& ray, const Departure& departure, Question& question, RTCRay& embree_ray) const {

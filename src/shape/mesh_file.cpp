@@ -6,6 +6,7 @@
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <filesystem>
+#include <string_view>
 
 #include "phase/base/error.h"
 #include "src/shape/ply_length.h"
@@ -20,6 +21,9 @@ std::vector<Triangle> read_mesh(const std::string& path, const std::string& wher
   if (kind == ".ply") check_ply_length(path, where + ": " + path);
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_PreTransformVertices);
+  // Assimp reads points without faces, and fails when it finds nothing left of them.
+  if (!scene && std::string_view(importer.GetErrorString()).find("No output meshes") != std::string_view::npos)
+    throw bad_input(where + ": " + path, "no face", "a mesh of triangles or polygons expected");
   if (!scene) throw bad_input(where + ": " + path, "no readable mesh (" + std::string(importer.GetErrorString()) + ")", "PLY or OBJ expected");
   std::vector<Triangle> triangles;
   for (unsigned m = 0; m < scene->mNumMeshes; ++m) {

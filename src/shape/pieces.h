@@ -5,11 +5,14 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "media/space/box.h"
 #include "media/space/ray.h"
 #include "phase/base/vec3.h"
+#include "src/shape/terrain.h"
+#include "src/shape/triangle.h"
 
 namespace arcus::render {
 
@@ -37,10 +40,6 @@ struct Flat {
   Vec3 centre_m, edge_u_m, edge_v_m;
   bool is_disc = false;
   double hole = 0;  ///< of a disc: radius of a hole in its middle over its own
-};
-
-struct Triangle {
-  Vec3 a_m, b_m, c_m;
 };
 
 /// Where a ray meets a piece.
@@ -101,8 +100,11 @@ struct PieceGroup {
   std::vector<Sphere> spheres;     ///< either these
   std::vector<Flat> flats;         ///< or these
   std::vector<Triangle> triangles; ///< or these
+  std::shared_ptr<const Terrain> terrain;  ///< or those of a terrain
 
-  std::size_t size() const { return spheres.size() + flats.size() + triangles.size(); }
+  std::size_t triangle_count() const { return terrain ? terrain->triangles() : triangles.size(); }
+  Triangle triangle(std::uint32_t piece) const { return terrain ? terrain->triangle(piece) : triangles[piece]; }
+  std::size_t size() const { return spheres.size() + flats.size() + triangle_count(); }
 };
 
 media::Box bounds_of(const PieceGroup& group);

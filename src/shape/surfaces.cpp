@@ -14,13 +14,13 @@ void list_keys(Keys& keys, SurfaceSettings& surface) {
   keys.table("material", surface.material, "what it does with light");
 }
 
-void SurfaceParts::add(const SurfaceSettings& surface, const std::string& folder, const ColourToSpectrum& colour) {
-  const Material material = make_material(surface.material, folder, colour);
+void SurfaceParts::add(const SurfaceSettings& surface, const std::string& folder, const SurfaceInputs& inputs) {
+  const Material material = make_material(surface.material, folder, inputs, "surface '" + surface.name + "'");
   if (surface.shape.type == "plane") {
     planes.push_back({surface.shape.height_m, static_cast<std::uint32_t>(materials.size())});
     materials.push_back(material);
   } else {
-    add(pieces_of(surface.shape, folder, "surface '" + surface.name + "'"), material);
+    add(pieces_of(surface.shape, folder, "surface '" + surface.name + "'", inputs.heights), material);
   }
 }
 
@@ -76,7 +76,7 @@ std::optional<Hit> Surfaces::nearest_hit(const media::Ray& ray, const Departure&
     const Flat& flat = group.flats[found->id.piece];
     hit.normal = normalize(cross(flat.edge_u_m, flat.edge_v_m));
   } else {
-    const Triangle& t = group.triangles[found->id.piece];
+    const Triangle t = group.triangle(found->id.piece);
     hit.normal = normalize(cross(t.b_m - t.a_m, t.c_m - t.a_m));
   }
   if (hit.from_inside) hit.normal = -hit.normal;

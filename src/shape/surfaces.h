@@ -47,7 +47,7 @@ struct SurfaceParts {
   std::vector<PieceGroup> groups;
 
   /// `folder`: where relative paths start. Throws bad_input.
-  void add(const SurfaceSettings& surface, const std::string& folder, const ColourToSpectrum& colour);
+  void add(const SurfaceSettings& surface, const std::string& folder, const SurfaceInputs& inputs);
   void add(PieceGroup group, const Material& material);
 };
 

@@ -76,6 +76,73 @@ plane_ply() { printf 'ply\nformat %s 1.0\nelement vertex 4\nproperty float x\npr
 expect 2 "cut.ply: 0 of 1 entries of 'face'.*cut off" "$ARCUS" render s.toml
 { plane_ply binary_little_endian; head -c 40 /dev/zero; } >cut.ply
 expect 2 "cut.ply: 3 of 4 entries of 'vertex'.*cut off" timeout 20 "$ARCUS" render s.toml
+plane_ply ascii | sed 's/element face 1/element face 0/' >none.ply
+printf '0 0 0\n1 0 0\n1 1 0\n0 1 0\n' >>none.ply
+surface 'type = "mesh", file = "none.ply"' 'albedo = 0.5'
+expect 2 'none.ply: no face' "$ARCUS" render s.toml
+printf 'v 0 0 0\nv 1 0 0\nv nan 1 0\nf 1 2 3\n' >odd.obj
+surface 'type = "mesh", file = "odd.obj"' 'albedo = 0.5'
+expect 2 'odd.obj: a corner that is not finite in face 0' "$ARCUS" render s.toml
+{ plane_ply ascii; printf '0 0 0\n1 0 0\n1 nan 0\n0 1 0\n4 0 1 2 3\n'; } >odd.ply
+surface 'type = "mesh", file = "odd.ply"' 'albedo = 0.5'
+expect 2 'odd.ply: a corner that is not finite in face 0' "$ARCUS" render s.toml
+
+# Pictures of the sky, of heights and of colours. Netpbm: a picture as text.
+ppm() { printf 'P3\n%s %s\n255\n' "$1" "$2"; shift 2; printf '%s\n' "$@"; }
+ppm 2 1 200 100 50 0 0 10 >sky.ppm
+ppm 1 1 200 100 50 >square.ppm
+ppm 2 1 0 0 0 0 0 0 >black.ppm
+echo 'no picture' >words.png
+sky() { printf '[camera]\nresolution = [8, 8]\n[render]\nsamples_per_pixel = 1\n[sky]\ntype = "image"\n%s\n[[surface]]\n' "$1" >i.toml; }
+sky ''
+expect 2 'i.toml:5.*sky.file: nothing.*name of a picture' "$ARCUS" render i.toml
+sky 'file = "nowhere.exr"'
+expect 2 'i.toml: sky.file: nowhere.exr: no file' "$ARCUS" render i.toml
+sky 'file = "words.png"'
+expect 2 'sky.file: words.png: no readable picture' "$ARCUS" render i.toml
+sky 'file = "square.ppm"'
+expect 2 'square.ppm: 1 x 1 pixels found; twice as wide as high' "$ARCUS" render i.toml
+sky 'file = "black.ppm"'
+expect 2 'black.ppm: no light' "$ARCUS" render i.toml
+sky "$(printf 'file = "sky.ppm"\nscale = 0')"
+expect 2 'i.toml:8.*sky.scale: 0.*above 0' "$ARCUS" render i.toml
+sky "$(printf 'file = "sky.ppm"\nscale = 1e35')"
+expect 2 'sky.ppm: values up to .* less than 1e30' "$ARCUS" render i.toml
+sky 'file = "sky.ppm"'
+for integrator in volume_path path whitted ray_cast; do must "$ARCUS" render i.toml --quiet --set "render.integrator=$integrator"; done
+# Tiles of another sky are not merged with those of this one.
+must "$ARCUS" tile i.toml --tiles 0/2 --out sky_tiles --quiet
+ppm 2 1 200 100 50 0 0 11 >sky.ppm
+expect 3 'sky_tiles: holds tiles of something else: the content of sky.ppm was another' "$ARCUS" tile i.toml --tiles 1/2 --out sky_tiles --quiet
+surface 'type = "terrain"' 'albedo = 0.5'
+expect 2 's.toml:4.*file: nothing.*picture of heights' "$ARCUS" render s.toml
+surface 'type = "terrain", file = "nowhere.png"' 'albedo = 0.5'
+expect 2 'nowhere.png: no file' "$ARCUS" render s.toml
+surface 'type = "terrain", file = "sky.ppm", size_m = [3]' 'albedo = 0.5'
+expect 2 's.toml:4.*size_m' "$ARCUS" render s.toml
+surface 'type = "terrain", file = "sky.ppm", low_m = 3, high_m = 3' 'albedo = 0.5'
+expect 2 's.toml:4.*high_m: 3.*differ from low_m' "$ARCUS" render s.toml
+surface 'type = "terrain", file = "sky.ppm", low_m = 100, high_m = 300' 'albedo = 0.5'
+expect 2 's.toml: camera.position_m: a place [0-9.]+ m below the land' "$ARCUS" render s.toml
+ppm 5000 4000 >wide.ppm
+yes '7 7 7' | head -n 20000000 >>wide.ppm
+surface 'type = "terrain", file = "wide.ppm"' 'albedo = 0.5'
+expect 2 'wide.ppm: 5000 x 4000 heights found; at most 16777216' "$ARCUS" render s.toml
+rm wide.ppm
+surface 'type = "plane"' 'pattern = "image"'
+expect 2 's.toml:5.*image: nothing.*name of a picture' "$ARCUS" render s.toml
+surface 'type = "plane"' 'pattern = "image", image = "nowhere.png"'
+expect 2 'nowhere.png: no file' "$ARCUS" render s.toml
+surface 'type = "plane"' 'pattern = "image", image = "sky.ppm", image_size_m = [0, 1]'
+expect 2 's.toml:5.*image_size_m.*above 0' "$ARCUS" render s.toml
+surface 'type = "plane"' 'albedo_file = "nowhere.txt"'
+expect 2 'nowhere.txt' "$ARCUS" render s.toml
+printf '400 0.5\n500 1.5\n' >bright.txt
+surface 'type = "plane"' 'albedo_file = "bright.txt"'
+expect 2 'bright.txt: a share of 1.5' "$ARCUS" render s.toml
+surface 'type = "plane"' 'albedo_file = "bright.txt", pattern = "checker"'
+expect 2 's.toml:5.*albedo_file.*must be left out' "$ARCUS" render s.toml
+
 # Photon maps.
 photons() { printf '[render]\nintegrator = "photon_map"\n%s\n[camera]\nresolution = [4, 4]\n%s\n' "$1" "$2" >p.toml; }
 ball='[[surface]]

@@ -58,7 +58,7 @@ TEST(FarmJob, CommandsAreAsPeopleTypeThem) {
   job.frames = FrameRange{0, 1};
   EXPECT_EQ(command_of(job, {1, {0, 1, 2, 3, 4}}),
             "arcus tile 'the scene.toml' --tiles 0-4/5 --out out/frame_0001 --set sun.elevation_deg=20 --set 'camera.position_m=[0, 1, 2]' --threads 2");
-  EXPECT_EQ(merge_command_of(job, 1), "arcus merge out/frame_0001 -o p.0001.exr");
+  EXPECT_EQ(merge_words_of(job, 1), (std::vector<std::string>{"arcus", "merge", "out/frame_0001", "-o", "p.0001.exr"}));
 }
 
 TEST(FarmJob, ShellsGetTheSameWord) {
