@@ -131,7 +131,7 @@ void PhotonTracer::add_targets() {
 bool PhotonTracer::set_out(Flight& flight, const Ball& through) const {
   const Sun& sun = scene_.sun;
   const SunLight light = sun.light({{550, 550, 550, 550}});
-  const float brightest = sun.radiance(sun.to_centre(), light)[0];
+  const float brightest = sun.most_radiance(light);
   Vec3 to_sun;
   do {
     to_sun = sun.draw(flight.random.uniform_double(), flight.random.uniform_double());

@@ -270,6 +270,28 @@ TEST(SphereTable, LeavesTheIsotropicFunctionIsotropicUnderTheSunsDisc) {
   }
 }
 
+TEST(SphereTable, UnderAMoonIsTheMeanOverAUniformDisc) {
+  const ScatteringTable drops = synthetic_table({200}, wavelengths_nm(380, 780, 20), 8);
+  SphereTableOptions options;
+  options.sun_angular_radius_rad = sun_radius_rad;
+  options.wavelength_nodes = 21;
+  const SphereTable sun(drops, options);
+  options.disc = DiscKind::uniform;
+  const SphereTable moon(drops, options);
+  const Wavelengths at = {{550, 550, 550, 550}};
+  // Straight on, equal areas of the disc are equal steps of sin2(angle / 2).
+  const double s_disc = std::pow(std::sin(sun_radius_rad / 2), 2);
+  double mean = 0;
+  constexpr int steps = 20000;
+  for (int i = 0; i < steps; ++i) {
+    const double s = s_disc * (i + 0.5) / steps;
+    mean += moon.value_per_sr(0, HalfAngle{s, 1 - s}, at)[0] / steps;
+  }
+  const double under_moon = moon.sunlit_value_per_sr(0, HalfAngle{0, 1}, at)[0], under_sun = sun.sunlit_value_per_sr(0, HalfAngle{0, 1}, at)[0];
+  EXPECT_NEAR(under_moon / mean, 1, 3e-3) << "linear between the nodes of angle and wavelength";
+  EXPECT_GT(std::fabs(under_sun / mean - 1), 0.01) << "the sun's disc is brightest in the middle";
+}
+
 TEST(SphereTable, WithoutASunMakesNoSunlitValues) {
   EXPECT_FALSE(SphereTable(isotropic_table()).includes_sun_disc());
 }
