@@ -54,6 +54,7 @@ SceneIdentity scene_identity(const SceneSettings& settings) {
   SceneSettings named = settings;
   Naming naming(settings.folder);
   named.film.exposure_ev = 0;
+  named.film.adaptation = "day";
   if (named.sun.spectrum != "solar" && named.sun.spectrum != "equal_energy") naming.file(named.sun.spectrum);
   for (MediumSettings& medium : named.media) {
     naming.recipe(medium);
