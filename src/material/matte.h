@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "phase/base/frame.h"
+#include "phase/base/random.h"
 #include "src/material/smooth_spectrum.h"
 
 namespace arcus::render {
@@ -41,6 +42,17 @@ class Matte {
  private:
   SmoothSpectrum albedo_, other_;
   double per_edge_ = 0;  // 0: one colour
+};
+
+/// A matte surface at a place: what spreads light can be asked for values, densities and draws.
+struct MatteLobe {
+  const Matte& matte;
+  const Vec3 &position_m, &normal;
+  const Wavelengths& wavelengths;
+
+  Spectrum value_per_sr(const Vec3& away) const { return matte.value_per_sr(position_m, normal, away, wavelengths); }
+  double density_per_sr(const Vec3& away) const { return Matte::density_per_sr(normal, away); }
+  Vec3 draw(Random& random) const { return Matte::draw(normal, random.uniform_double(), random.uniform_double()); }
 };
 
 }  // namespace arcus::render

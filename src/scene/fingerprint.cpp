@@ -29,8 +29,8 @@ class Naming {
   }
   /// The file with a body's index, where there is one.
   void index(MaterialSettings& material) {
-    const bool is_clear = material.type == "transparent" || material.type == "dielectric";
-    if (is_clear && !material.index.empty() && material.index != "water" && material.index != "ice") file(material.index);
+    const bool has_index = material.type == "transparent" || material.type == "dielectric" || material.type == "sea";
+    if (has_index && !material.index.empty() && material.index != "water" && material.index != "ice") file(material.index);
   }
   std::vector<SceneInput> inputs() && { return std::move(inputs_); }
 
