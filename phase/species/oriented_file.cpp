@@ -58,7 +58,8 @@ void write_oriented_file(const std::string& path, const OrientedFile& file) {
   to.text("table_id", file.id);
   to.text("references", references);
   to.text("comment",
-          "Linear between the nodes of every axis. Light of the limb-darkened sun (of the uniform disc of a full moon where it was made for one), scattered once; light that goes straight on is "
+          "Linear between the nodes of every axis. Light of the limb-darkened sun (of the uniform disc of a full moon where it was made for one), "
+          "scattered once; light that goes straight on is "
           "in forward_fraction and not in scattering.");
   to.number("sun_elevation_deg", t.sun_elevation_deg);
   to.number("sun_angular_radius_deg", t.sun_angular_radius_deg);

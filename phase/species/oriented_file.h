@@ -31,7 +31,8 @@ std::string oriented_table_id(const Recipe& recipe, double sun_elevation_deg, do
                               const PathFilter& paths = {}, DiscKind disc = DiscKind::limb_darkened);
 
 /// The table of a recipe of crystals: from the cache of options, or computed and kept. The disc's place and radius are what the arguments say,
-/// whatever the options have; its kind is that of the options. Crystals that lie at random are as good as others. Throws bad_input for other recipes and for an elevation outside of -90 to 90.
+/// whatever the options have; its kind is that of the options. Crystals that lie at random are as good as others. Throws bad_input for other recipes
+/// and for an elevation outside of -90 to 90.
 OrientedTable oriented_table_of(const Recipe& recipe, double sun_elevation_deg, double sun_angular_radius_deg,
                                 const SpeciesOptions& options, const PathFilter& paths = {});
 

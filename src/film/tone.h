@@ -41,17 +41,20 @@ struct ToneSettings {
   std::optional<ToRgb> night{};
 };
 
-/// Luminance [cd/m2] of what has Y = 1 W m-2 sr-1 nm-1, the mean of the spectral radiance weighted with ybar: 683 lm/W times the integral of ybar, 106.857 nm.
+/// Luminance [cd/m2] of what has Y = 1 W m-2 sr-1 nm-1, the mean of the spectral radiance weighted with ybar: 683 lm/W times the integral of ybar,
+/// 106.857 nm.
 inline constexpr double cd_per_m2_of_y = 683 * 106.857;
 
-/// How much of a colour the cones see, 0 (rods alone, below 0.01 cd/m2) to 1 (cones alone, above 4): a smooth step in the logarithm of the luminance [cd/m2].
+/// How much of a colour the cones see, 0 (rods alone, below 0.01 cd/m2) to 1 (cones alone, above 4): a smooth step in the logarithm of the luminance
+/// [cd/m2].
 double share_of_cones(double luminance_cd_per_m2);
 
-/// What an eye adapted to the night sees of a colour, on a screen: the cones' colour fades into the rods' grey as luminance falls. The rods see
-/// V = Y (1.33 (1 + (Y + Z) / X) - 1.68) (G. W. Larson, H. Rushmeier and C. Piatko, "A visibility matching tone reproduction operator for high dynamic range scenes",
-/// IEEE TVCG 3, 291, 1997), and their grey has the chromaticity (0.25, 0.25) before a screen whose white is D65 and the luminance 0.4468 V (H. W. Jensen, F. Durand, M. Stark,
-/// S. Premoze, J. Dorsey and P. Shirley, "A physically-based night sky model", SIGGRAPH 2001, section 5; hue from H. W. Jensen and others, "Night rendering", University of
-/// Utah UUCS-00-016, 2000). `rgb` within the gamut, as to_rgb made it of a radiance [W m-2 sr-1 nm-1]; the result is linear Rec.709 in the same unit. Light above 4 cd/m2 stays what it is.
+/// What an eye adapted to the night sees of a colour, on a screen: the cones' colour fades into the rods' grey as luminance falls. The rods see V = Y
+/// (1.33 (1 + (Y + Z) / X) - 1.68) (G. W. Larson, H. Rushmeier and C. Piatko, "A visibility matching tone reproduction operator for high dynamic
+/// range scenes", IEEE TVCG 3, 291, 1997), and their grey has the chromaticity (0.25, 0.25) before a screen whose white is D65 and the luminance
+/// 0.4468 V (H. W. Jensen, F. Durand, M. Stark, S. Premoze, J. Dorsey and P. Shirley, "A physically-based night sky model", SIGGRAPH 2001, section 5;
+/// hue from H. W. Jensen and others, "Night rendering", University of Utah UUCS-00-016, 2000). `rgb` within the gamut, as to_rgb made it of a
+/// radiance [W m-2 sr-1 nm-1]; the result is linear Rec.709 in the same unit. Light above 4 cd/m2 stays what it is.
 Rgb night_seen(const Rgb& rgb, const ToRgb& to_rgb);
 
 /// Steps 2 and 3: linear display values in [0, 1] of a scaled colour. Not finite: black.

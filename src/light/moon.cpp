@@ -62,8 +62,7 @@ double MoonReflection::irradiance_over_suns(double wavelength_nm) const {
 }
 
 MoonFace::MoonFace(double phase_angle_deg) : sine_(std::sin(radians(phase_angle_deg))), cosine_(std::cos(radians(phase_angle_deg))) {
-  // The whole moon's brightness over that at full, by this law: 1 - sin(g/2) tan(g/2) ln cot(g/4) (V. V. Sobolev, Light Scattering in Planetary Atmospheres, 1975,
-  // chapter 9), the mean of mu0 / (mu0 + mu) over half of the disc's.
+  // The whole moon's brightness over that at full, by this law: 1 - sin(g/2) tan(g/2) ln cot(g/4), the mean of mu0 / (mu0 + mu) over half of the disc's.
   const double half = radians(phase_angle_deg) / 2;
   const double brightness = phase_angle_deg == 0 ? 1 : 1 - std::sin(half) * std::tan(half) * std::log(1 / std::tan(half / 2));
   per_mean_ = 2 / brightness;

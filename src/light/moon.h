@@ -1,12 +1,14 @@
 #pragma once
 // The moon as a light: how much of the sun's light it sends on, by phase angle and wavelength, and how its disc is lit.
 //
-// Brightness by phase: V = -12.73 + 0.026 |g| + 4e-9 g^4 for the mean distance, g in degrees (C. W. Allen, Astrophysical Quantities, 1976; K. Krisciunas and
-// B. E. Schaefer, "A model of the brightness of moonlight", PASP 103, 1033, 1991, equation 9), against the sun's V = -26.74 (C. N. A. Willmer, "The absolute
-// magnitude of the Sun in several filters", ApJS 236, 47, 2018: -26.76; Allen: -26.74). The opposition surge near full is left out: 17 % at 1.55 degrees.
-// Colour: a parabola through the logarithm of the reflectances of H. H. Kieffer and T. C. Stone (2005) at the phase angle, src/light/data/lunar_reflectance.csv,
-// whose bands scatter by a few per cent around it.
-// The disc: the law of Lommel and Seeliger, radiance in proportion to mu0 / (mu0 + mu): uniform at full moon, as the moon is, with a terminator at other phases.
+// Brightness by phase: V = -12.73 + 0.026 |g| + 4e-9 g^4 for the mean distance, g in degrees (C. W. Allen, Astrophysical Quantities, 1976; K.
+// Krisciunas and B. E. Schaefer, "A model of the brightness of moonlight", PASP 103, 1033, 1991, equation 9), against the sun's V = -26.74 (C. N. A.
+// Willmer, "The absolute magnitude of the Sun in several filters", ApJS 236, 47, 2018: -26.76; Allen: -26.74). The opposition surge near full is left
+// out: 17 % at 1.55 degrees.
+// Colour: a parabola through the logarithm of the reflectances of H. H. Kieffer and T. C. Stone (2005) at the phase angle,
+// src/light/data/lunar_reflectance.csv, whose bands scatter by a few per cent around it.
+// The disc: the law of Lommel and Seeliger, radiance in proportion to mu0 / (mu0 + mu): uniform at full moon, as the moon is, with a terminator at
+// other phases.
 
 #include "phase/base/vec3.h"
 
@@ -14,8 +16,8 @@ namespace arcus::render {
 
 inline constexpr double most_phase_angle_deg = 175;  // nearer the sun nobody has seen it (Danjon's limit, 7 degrees)
 
-/// Irradiance by the moon over that by the sun at the same vacuum wavelength, both outside the air and at their mean distances. The phase angle, sun - moon - eye, from 0
-/// (full) through 90 (half) to most_phase_angle_deg.
+/// Irradiance by the moon over that by the sun at the same vacuum wavelength, both outside the air and at their mean distances. The phase angle, sun
+/// - moon - eye, from 0 (full) through 90 (half) to most_phase_angle_deg.
 class MoonReflection {
  public:
   explicit MoonReflection(double phase_angle_deg);

@@ -14,7 +14,8 @@ void list_keys(Keys& keys, SunSettings& sun) {
   keys.number("azimuth_deg", sun.azimuth_deg, any(), "compass azimuth of the sun, clockwise from north");
   keys.number("elevation_deg", sun.elevation_deg, between(-90, 90), "elevation above the horizon");
   const std::string before = sun.body;
-  keys.choice("body", sun.body, {"sun", "moon"}, "what shines; moon: the sun's light sent on by the moon, redder and some 400,000 times weaker, in place of the sun");
+  keys.choice("body", sun.body, {"sun", "moon"},
+              "what shines; moon: the sun's light sent on by the moon, redder and some 400,000 times weaker, in place of the sun");
   if (sun.body != before) sun.angular_radius_deg = sun.is_moon() ? phase::mean_moon_radius_deg : phase::mean_sun_radius_deg;
   if (keys.only_if(sun.is_moon(), "body = moon")) {
     keys.number("phase_angle_deg", sun.phase_angle_deg, between(0, most_phase_angle_deg), "angle sun - moon - eye: 0 full, 90 half, towards 180 new");
@@ -133,7 +134,8 @@ float Sun::most_radiance(const SunLight& light) const {
 }
 
 MoonFace::Place Sun::place_of(const Vec3& direction) const {
-  // rho = sin(delta/2) / sin(radius/2), so that equal areas are equal solid angles; across the direction to the centre lies sin(delta) = 2 sin(delta/2) cos(delta/2).
+  // rho = sin(delta/2) / sin(radius/2), so that equal areas are equal solid angles; across the direction to the centre lies sin(delta) = 2
+  // sin(delta/2) cos(delta/2).
   const double s = sin2_half_angle(direction, frame_.along);
   const double scale = 1 / (2 * std::sqrt(sin2_half_radius_ * (1 - s)));
   return {dot(direction, frame_.side) * scale, dot(direction, frame_.other) * scale};

@@ -94,8 +94,8 @@ Spectrum SeaView::value_per_sr(const Vec3& away) const {
   for (int i = 0; i < wavelength_count; ++i) {
     const double index = index_[static_cast<std::size_t>(i)];
     const double in = 1 - phase::fresnel_reflectance(to.z, index).unpolarised();
-    value[i] = static_cast<float>(facets * phase::fresnel_reflectance(facing, index).unpolarised() + (1 - sea_.foam_) * in * static_cast<double>(from_below_[i]) +
-                                  sea_.foam_ * foam_reflectance / pi);
+    const double from_below = (1 - sea_.foam_) * in * static_cast<double>(from_below_[i]);
+    value[i] = static_cast<float>(facets * phase::fresnel_reflectance(facing, index).unpolarised() + from_below + sea_.foam_ * foam_reflectance / pi);
   }
   return value;
 }
@@ -109,8 +109,8 @@ double SeaView::density_per_sr(const Vec3& away) const {
   return specular_share_ * visible + (1 - specular_share_) * to.z / pi;
 }
 
-/// Where the roughness is 1 both ways, slopes along the view are seen with the density (cos + u sin) exp(-u^2) above -cot, u towards the eye. Its integral is inverted by Newton's
-/// steps, halving where those leave the bracket.
+/// Where the roughness is 1 both ways, slopes along the view are seen with the density (cos + u sin) exp(-u^2) above -cot, u towards the eye. Its
+/// integral is inverted by Newton's steps, halving where those leave the bracket.
 double SeaView::visible_slope(double share) const {
   constexpr double far = 6;  // exp(-36)
   const double first = sine_ * far > cosine_ ? -cosine_ / sine_ : -far;

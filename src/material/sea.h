@@ -1,15 +1,17 @@
 #pragma once
-// The sea to the horizon: waves too small to be seen one by one, as a distribution of slopes, each a smooth piece of water (Fresnel); light from below the surface; and foam.
+// The sea to the horizon: waves too small to be seen one by one, as a distribution of slopes, each a smooth piece of water (Fresnel); light from
+// below the surface; and foam.
 //
-// Slopes: normal, with the variances that C. Cox and W. Munk measured in sun glitter, "Measurement of the roughness of the sea surface from photographs of the sun's glitter",
-// J. Opt. Soc. Am. 44, 838 (1954), for a wind W [m/s] at 12.5 m, 1 to 14 m/s: across the wind 0.003 + 0.00192 W, along it 0.00316 W, or 0.003 + 0.00512 W in all, shared evenly;
-// skewness and peakedness are left out. Waves hide and shade one another by Smith's function with correlated heights (E. Heitz, "Understanding the masking-shadowing function in
-// microfacet-based BRDFs", JCGT 3(2), 48, 2014, equations 72, 99); slopes are drawn as they are seen (E. Heitz and E. d'Eon, "Importance sampling microfacet-based BSDFs using the
-// distribution of visible normals", EGSR 2014). What is reflected into another wave is lost: docs/sea.md says how much. Light is taken to be natural and leaves as such.
+// Slopes: normal, with the variances that C. Cox and W. Munk measured in sun glitter, "Measurement of the roughness of the sea surface from
+// photographs of the sun's glitter", J. Opt. Soc. Am. 44, 838 (1954), for a wind W [m/s] at 12.5 m, 1 to 14 m/s: across the wind 0.003 + 0.00192 W,
+// along it 0.00316 W, or 0.003 + 0.00512 W in all, shared evenly; skewness and peakedness are left out. Waves hide and shade one another by Smith's
+// function with correlated heights (E. Heitz, "Understanding the masking-shadowing function in microfacet-based BRDFs", JCGT 3(2), 48, 2014); slopes are drawn as they are seen (E. Heitz and E. d'Eon, "Importance sampling microfacet-based BSDFs using the distribution of
+// visible normals", EGSR 2014). What is reflected into another wave is lost: docs/sea.md says how much. Light is taken to be natural and leaves as
+// such.
 //
-// From below the surface: a share R of the light that has come through the surface is sent back evenly, and leaves through the surface, part of it after having been reflected
-// down again (A. Morel and B. Gentili, Applied Optics 35, 4850, 1996). Foam: coverage 2.95e-6 W^3.52 (E. Monahan and I. O'Muircheartaigh, J. Phys. Oceanogr. 10, 2094, 1980),
-// matte, of reflectance 0.22 (P. Koepke, Applied Optics 23, 1816, 1984).
+// From below the surface: a share R of the light that has come through the surface is sent back evenly, and leaves through the surface, part of it
+// after having been reflected down again (A. Morel and B. Gentili, Applied Optics 35, 4850, 1996). Foam: coverage 2.95e-6 W^3.52 (E. Monahan and I.
+// O'Muircheartaigh, J. Phys. Oceanogr. 10, 2094, 1980), matte, of reflectance 0.22 (P. Koepke, Applied Optics 23, 1816, 1984).
 
 #include <array>
 
@@ -51,7 +53,8 @@ class SeaView {
 
   /// Radiance towards the eye per irradiance from a direction [1/sr]; 0 behind the surface.
   Spectrum value_per_sr(const Vec3& away) const;
-  /// Density of draw() [1/sr] in a direction on the surface's side; the same for all wavelengths. It adds up to less than 1: some draws go into other waves.
+  /// Density of draw() [1/sr] in a direction on the surface's side; the same for all wavelengths. It adds up to less than 1: some draws go into other
+  /// waves.
   double density_per_sr(const Vec3& away) const;
   /// A direction from which much of the light comes; where it points behind the surface, the light is lost.
   Vec3 draw(Random& random) const;

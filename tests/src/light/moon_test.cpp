@@ -29,10 +29,12 @@ double magnitudes(double ratio) { return -2.5 * std::log10(ratio); }
 TEST(Moon, IsAsBrightAndAsRedAsItIsMeasured) {
   const double sun_lux = lux_per_y * sun_colour(sun_irradiance({}, "")).y, full_lux = lux_per_y * sun_colour(sun_irradiance(moon_at(0), "")).y;
   EXPECT_NEAR(sun_lux, 133.4e3, 200) << "solar_spectrum_toa.csv";
-  // V = -12.73 is 0.31 lx with Allen's 2.54e-6 lx for V = 0; the sun's V = -26.74 is 126 klx by the same figure, 6 % less than its measured spectrum has.
+  // V = -12.73 is 0.31 lx with Allen's 2.54e-6 lx for V = 0; the sun's V = -26.74 is 126 klx by the same figure, 6 % less than its measured spectrum
+  // has.
   EXPECT_NEAR(full_lux, 0.33, 0.015);
   EXPECT_NEAR(full_lux / sun_lux * 126e3, 0.31, 0.01);
-  // B - V is 0.92 for the full moon and 0.65 for the sun (Allen, Astrophysical Quantities, 1976; 0.653 for the sun: Ramirez et al., ApJ 752, 5, 2012). B and V see around 440 and 550 nm.
+  // B - V is 0.92 for the full moon and 0.65 for the sun (Allen, Astrophysical Quantities, 1976; 0.653 for the sun: Ramirez et al., ApJ 752, 5,
+  // 2012). B and V see around 440 and 550 nm.
   const MoonReflection full(0);
   EXPECT_NEAR(magnitudes(full.irradiance_over_suns(440) / full.irradiance_over_suns(550)), 0.92 - 0.65, 0.04);
 }

@@ -104,7 +104,8 @@ TEST(Sea, ReflectsAsMuchOneWayAsTheOther) {
   for (const double wind : {0.5, 5.0, 15.0}) {
     const Sea sea = whole_sea(wind);
     for (int i = 0; i < 100; ++i) {
-      const Vec3 a = Matte::draw(up, random.uniform_double(), random.uniform_double()), b = Matte::draw(up, random.uniform_double(), random.uniform_double());
+      const Vec3 a = Matte::draw(up, random.uniform_double(), random.uniform_double());
+      const Vec3 b = Matte::draw(up, random.uniform_double(), random.uniform_double());
       const double there = SeaView(sea, up, a, green).value_per_sr(b)[0], back = SeaView(sea, up, b, green).value_per_sr(a)[0];
       EXPECT_NEAR(there, back, 1e-5 * back + 1e-12);
     }
@@ -120,7 +121,8 @@ TEST(Sea, CalmIsFresnelsMirror) {
 }
 
 TEST(Sea, OnlyLightFromBelowIsWhatTheSmoothSurfaceLetsThroughTwice) {
-  // Waves hardly matter to it; with all that the water can send back, R = 1 would give exactly 1 - Fresnel. For R: R (1 - F)(1 - Fmean) / (n2 (1 - R Finside)).
+  // Waves hardly matter to it; with all that the water can send back, R = 1 would give exactly 1 - Fresnel. For R: R (1 - F)(1 - Fmean) / (n2 (1 - R
+  // Finside)).
   const double n = 1.34, down = 0.0667, inner = 1 - (1 - down) / (n * n), r = 0.3;
   const Sea clear = waves({1e-6, 1e-6}), milky(water(), {1e-6, 1e-6}, 270, r, 0);
   for (const double zenith : {0.0, 60.0}) {
@@ -142,8 +144,8 @@ TEST(Sea, NeverReflectsMoreThanItGets) {
 }
 
 TEST(Sea, AlbedoFollowsJinAndOthers) {
-  // Z. Jin, Y. Qiao, Y. Wang, Y. Fang and W. Yi, "A new parameterization of spectral and broadband ocean surface albedo", Optics Express 19, 26429 (2011), equations 1 and 4: fits to
-  // ray tracing with reflections between waves, for the same slopes.
+  // Z. Jin, Y. Qiao, Y. Wang, Y. Fang and W. Yi, "A new parameterization of spectral and broadband ocean surface albedo", Optics Express 19, 26429
+  // (2011), equations 1 and 4: fits to ray tracing with reflections between waves, for the same slopes.
   const auto jin = [](double cosine, double wind) {
     const double m = cosine, s = std::sqrt(0.003 + 0.00512 * wind);
     const double f = (0.0152 - 1.7873 * m + 6.8972 * m * m - 8.5778 * m * m * m + 4.071 * s - 7.6446 * m * s) *
@@ -209,7 +211,8 @@ TEST(Sea, DrawsAsItsDensitySays) {
           const Vec3 away = Matte::draw(up, random.uniform_double(), random.uniform_double());
           chance.add(is_within(away) ? view.density_per_sr(away) * pi / away.z : 0);
         }
-        EXPECT_TRUE(statistics::means_agree(drawn, chance, {.comparisons = 24})) << wind << " " << zenith << " " << region << ": " << drawn.mean() << " " << chance.mean();
+        EXPECT_TRUE(statistics::means_agree(drawn, chance, {.comparisons = 24}))
+            << wind << " " << zenith << " " << region << ": " << drawn.mean() << " " << chance.mean();
       }
     }
 }
@@ -225,7 +228,8 @@ TEST(Sea, GlittersAsCoxAndMunkSay) {
     const media::Ray ray = looking(down, azimuth);
     const Vec3 half = normalize(to_sun - ray.direction);
     const double facing = dot(half, to_sun);
-    const double expected = phase::fresnel_reflectance(facing, 1.34).unpolarised() * cox_munk(wind, half.x / half.z, half.y / half.z) / (4 * std::sin(radians(down)) * std::pow(half.z, 4));
+    const double slopes = cox_munk(wind, half.x / half.z, half.y / half.z);
+    const double expected = phase::fresnel_reflectance(facing, 1.34).unpolarised() * slopes / (4 * std::sin(radians(down)) * std::pow(half.z, 4));
     const Moments found = traced(path, ray, 3000), through = traced(volume, ray, 3000);
     // Waves hide a little; the sun's disc spreads it by less.
     EXPECT_NEAR(found.mean() / expected, 0.995, 0.01) << down << " " << azimuth;
