@@ -16,6 +16,7 @@
 #include "phase/function/half_angle.h"
 #include "phase/function/large_vector.h"
 #include "phase/function/wavelength_grid.h"
+#include "phase/optics/sun_disc.h"
 #include "phase/population/scattering_table.h"
 
 namespace arcus::phase {
@@ -23,6 +24,8 @@ namespace arcus::phase {
 struct SphereTableOptions {
   /// Radius of the sun's disc that sunlit values are averaged over [rad]; 0: none are made.
   double sun_angular_radius_rad = 0;
+  /// How bright that disc is from its centre to its edge.
+  DiscKind disc = DiscKind::limb_darkened;
   /// Remove the forward lobe where the table declares a forward fraction. What is left is
   /// renormalised to 1; the caller scales cross-sections by (1 − forward_fraction). A forward
   /// fraction that is in no p11 (forward_angle_deg = 0) is left out in either case.

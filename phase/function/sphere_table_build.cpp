@@ -143,7 +143,7 @@ SphereTable::SphereTable(const ScatteringTable& table, const SphereTableOptions&
   if (sunlit) {
     sunlit_.grid = grid_over(table, std::min(count, most_sunlit_nodes));
     const DiscConvolution mean_over_disc(angle_nodes.deg,
-                                         DiscProfile(options.sun_angular_radius_rad));
+                                         DiscProfile(options.sun_angular_radius_rad, options.disc));
     const LargeVector<float> point_sun = evaluate_all(rows, sunlit_.grid, angle_nodes);
     sunlit_.values.resize(point_sun.size());
     mean_over_disc.apply(point_sun, size_count_, sunlit_.grid, sunlit_.values);

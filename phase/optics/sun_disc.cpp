@@ -21,8 +21,12 @@ void normalise(std::array<double, 6>& coefficients) {
 
 }  // namespace
 
-DiscProfile::DiscProfile(double angular_radius_rad) : angular_radius_rad_(angular_radius_rad) {
+DiscProfile::DiscProfile(double angular_radius_rad, DiscKind kind) : angular_radius_rad_(angular_radius_rad) {
   assert(angular_radius_rad > 0 && angular_radius_rad < pi / 2);
+  if (kind == DiscKind::uniform) {
+    rows_.push_back({550, {1, 0, 0, 0, 0, 0}});
+    return;
+  }
   const Columns table = read_columns(data::solar_limb_darkening(), "solar_limb_darkening.csv");
   const auto& wavelength_nm = table.named("wavelength_nm");
   for (std::size_t i = 0; i < wavelength_nm.size(); ++i) {

@@ -25,7 +25,7 @@ std::vector<CountedPath> paths_at(const CrystalTableSettings& settings, double s
   std::vector<double> rays(settings.waves.size());
   tbb::parallel_for(std::size_t{0}, settings.waves.size(), [&](std::size_t w) {
     if (!(weights[w] > 0)) return;
-    const SunLight sun(sun_elevation_deg, sun_angular_radius_deg, settings.waves[w].wavelength_nm);
+    const SunLight sun(sun_elevation_deg, sun_angular_radius_deg, settings.waves[w].wavelength_nm, settings.disc);
     RandomColumns random(census_seed, w, 0);
     rays[w] = add_paths(crystals, settings.waves[w], options, sun, place, settings.rays, random, found[w]);
   });

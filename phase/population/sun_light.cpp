@@ -4,11 +4,10 @@
 
 #include "phase/base/quick_math.h"
 #include "phase/base/units.h"
-#include "phase/optics/sun_disc.h"
 
 namespace arcus::phase {
 
-SunLight::SunLight(double elevation_deg, double angular_radius_deg, double wavelength_nm) : square_{} {
+SunLight::SunLight(double elevation_deg, double angular_radius_deg, double wavelength_nm, DiscKind disc) : square_{} {
   const double e = radians(elevation_deg);
   centre_ = {std::cos(e), 0, std::sin(e)};
   above_ = {-std::sin(e), 0, std::cos(e)};
@@ -16,7 +15,7 @@ SunLight::SunLight(double elevation_deg, double angular_radius_deg, double wavel
   const double sine = std::sin(radians(angular_radius_deg) / 2);
   sin2_half_radius_ = static_cast<float>(sine * sine);
   // With radiance sum c_k mu^k, mu^2 = 1 - rho^2, the share of light outside of rho is sum c_k 2 / (k + 2) mu^(k + 2).
-  const auto c = DiscProfile(radians(angular_radius_deg)).coefficients(wavelength_nm);
+  const auto c = DiscProfile(radians(angular_radius_deg), disc).coefficients(wavelength_nm);
   for (int i = 1; i <= nodes; ++i) {
     double low = 0, high = 1;  // mu
     const double outside = 1 - static_cast<double>(i) / nodes;

@@ -7,6 +7,7 @@
 #include "phase/crystal/crystal_beam.h"
 #include "phase/crystal/crystal_population.h"
 #include "phase/crystal/path_filter.h"
+#include "phase/optics/sun_disc.h"
 #include "phase/population/map_rays.h"
 #include "phase/population/oriented_table.h"
 #include "phase/population/scattering_table.h"
@@ -24,6 +25,7 @@ struct CrystalTableSettings {
   double rays = 4e6;                ///< at each wavelength
   double map_step_deg = 0.1;        ///< oriented
   double map_noise = 0.03;          ///< oriented: relative standard error up to which the map is smoothed
+  DiscKind disc = DiscKind::limb_darkened;  ///< oriented: of the light in the map
   PathFilter map_paths;             ///< oriented: other light is not in the map; extinction and albedo are those of all
 };
 

@@ -189,7 +189,7 @@ OrientedTable tabulate_oriented_crystals(const CrystalTableSettings& settings, d
     SumInOrder all_light(waves, grid.size()), all_squares(waves, grid.size());
     for_each(waves, [&](std::size_t wavelength) {
       const CrystalWave& wave = settings.waves[wavelength];
-      const SunLight sun(sun_elevation_deg, sun_angular_radius_deg, wave.wavelength_nm);
+      const SunLight sun(sun_elevation_deg, sun_angular_radius_deg, wave.wavelength_nm, settings.disc);
       std::vector<MapCell> cells(grid.size());
       RandomColumns random(map_seed, wavelength, static_cast<std::uint32_t>(size));
       RayAccount account;

@@ -85,6 +85,7 @@ std::shared_ptr<const Species> make_species(const Recipe& recipe, const SpeciesO
   if (recipe.is_oriented()) return std::make_shared<const Species>(oriented_crystals(recipe, options));
   SphereTableOptions lobes;
   lobes.sun_angular_radius_rad = options.sun_angular_radius_rad;
+  lobes.disc = options.disc;
   return std::make_shared<const Species>(table_of(recipe, options), lobes, options.counted_m2);
 }
 

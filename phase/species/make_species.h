@@ -16,6 +16,8 @@ namespace arcus::phase {
 struct SpeciesOptions {
   /// Radius of the sun's disc that phase functions are averaged over beside their own values [rad]; 0: they are not.
   double sun_angular_radius_rad = 0;
+  /// How bright that disc is from its centre to its edge.
+  DiscKind disc = DiscKind::limb_darkened;
   /// How high the sun stands [deg]: oriented crystals get a map of the sky for it, and without it none.
   std::optional<double> sun_elevation_deg;
   /// Cross-sections by size node that extinction coefficients refer to, where those are not the recipe's own; see Species. Spheres alone.

@@ -58,7 +58,8 @@ void write_oriented_file(const std::string& path, const OrientedFile& file) {
   to.text("table_id", file.id);
   to.text("references", references);
   to.text("comment",
-          "Linear between the nodes of every axis. Sunlight of the limb-darkened disc, scattered once; light that goes straight on is "
+          "Linear between the nodes of every axis. Light of the limb-darkened sun (of the uniform disc of a full moon where it was made for one), "
+          "scattered once; light that goes straight on is "
           "in forward_fraction and not in scattering.");
   to.number("sun_elevation_deg", t.sun_elevation_deg);
   to.number("sun_angular_radius_deg", t.sun_angular_radius_deg);
@@ -98,11 +99,12 @@ OrientedFile read_oriented_file(const std::string& path) {
 
 bool is_oriented_file(const std::string& path) { return netcdf_table_format(path) == format; }
 
-std::string oriented_table_id(const Recipe& recipe, double sun_elevation_deg, double sun_angular_radius_deg, const PathFilter& paths) {
+std::string oriented_table_id(const Recipe& recipe, double sun_elevation_deg, double sun_angular_radius_deg, const PathFilter& paths, DiscKind disc) {
   // Recipes of crystals at random say nothing about maps, so that their own tables do not depend on it.
   const std::string map = recipe.is_oriented() ? "" : " step " + number_text(recipe.map_step_deg) + " noise " + number_text(recipe.map_noise);
   return content_hash(recipe_id(recipe) + map + " map " + std::to_string(computation_version) + " sun " + number_text(sun_elevation_deg) +
-                      " " + number_text(sun_angular_radius_deg) + (paths.lets_all_through() ? "" : " paths " + paths.text()));
+                      " " + number_text(sun_angular_radius_deg) + (paths.lets_all_through() ? "" : " paths " + paths.text()) +
+                      (disc == DiscKind::uniform ? " uniform disc" : ""));
 }
 
 OrientedTable oriented_table_of(const Recipe& recipe, double sun_elevation_deg, double sun_angular_radius_deg,
@@ -112,7 +114,7 @@ OrientedTable oriented_table_of(const Recipe& recipe, double sun_elevation_deg, 
     throw bad_input("elevation of the sun", number_text(sun_elevation_deg), "must be between -90 and 90");
   OrientedFile file;
   file.recipe = text_of(recipe);
-  file.id = oriented_table_id(recipe, sun_elevation_deg, sun_angular_radius_deg, paths);
+  file.id = oriented_table_id(recipe, sun_elevation_deg, sun_angular_radius_deg, paths, options.disc);
   const std::string id = file.id;
   const auto read = [&](const std::string& path) {
     OrientedFile found = read_oriented_file(path);
@@ -126,6 +128,7 @@ OrientedTable oriented_table_of(const Recipe& recipe, double sun_elevation_deg, 
                   " crystals, sun at " + number_text(sun_elevation_deg) + " degrees");
     CrystalTableSettings settings = crystal_settings_of(recipe);
     settings.map_paths = paths;
+    settings.disc = options.disc;
     file.table = tabulate_oriented_crystals(settings, sun_elevation_deg, sun_angular_radius_deg, options.progress);
   };
   TableCache(options.cache_folder, options.log).find_or_make(id, read, make, [&](const std::string& path) { write_oriented_file(path, file); });

@@ -26,12 +26,13 @@ OrientedFile read_oriented_file(const std::string& path);
 /// Whether a file holds such a table; throws bad_input where it is missing or not as it was written.
 bool is_oriented_file(const std::string& path);
 
-/// 32 hexadecimal digits that name the table of a recipe under a sun; the radius is that of its disc. paths: the light in the map.
+/// 32 hexadecimal digits that name the table of a recipe under a sun or moon; the radius is that of its disc. paths: the light in the map.
 std::string oriented_table_id(const Recipe& recipe, double sun_elevation_deg, double sun_angular_radius_deg,
-                              const PathFilter& paths = {});
+                              const PathFilter& paths = {}, DiscKind disc = DiscKind::limb_darkened);
 
-/// The table of a recipe of crystals: from the cache of options, or computed and kept. The sun's disc is what the arguments say,
-/// whatever the options have. Crystals that lie at random are as good as others. Throws bad_input for other recipes and for an elevation outside of -90 to 90.
+/// The table of a recipe of crystals: from the cache of options, or computed and kept. The disc's place and radius are what the arguments say,
+/// whatever the options have; its kind is that of the options. Crystals that lie at random are as good as others. Throws bad_input for other recipes
+/// and for an elevation outside of -90 to 90.
 OrientedTable oriented_table_of(const Recipe& recipe, double sun_elevation_deg, double sun_angular_radius_deg,
                                 const SpeciesOptions& options, const PathFilter& paths = {});
 

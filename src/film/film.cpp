@@ -61,10 +61,13 @@ std::vector<double> allocated(std::size_t count, double bytes) {
 void list_keys(Keys& keys, FilmSettings& film) {
   keys.number(
       "exposure_ev", film.exposure_ev, between(-100, 100),
-      "of the PNG, in stops; 0 shows a white matte surface that faces the sun as a bright white");
+      "of the PNG, in stops; 0 shows a white matte surface that faces the sun or moon as a bright white");
+  keys.choice("adaptation", film.adaptation, {"day", "night"},
+              "of the PNG; night: below some 4 cd/m2 colours fade, below 0.01 the rods alone see, by the picture's physical luminance, in the bluish grey "
+              "of Jensen and others (2001); exposure_ev then makes it bright or dark");
   keys.word_or_number(
       "white", film.white, {"auto", "D65", "equal_energy"}, between(1000, 1e5),
-      "what is white: the sun's spectrum (auto), D65, equal_energy, or the temperature of a Planck "
+      "what is white: the sun's or moon's spectrum (auto), D65, equal_energy, or the temperature of a Planck "
       "radiator [K]");
   keys.choices("channels", film.channels, {"rgb", "xyz", "variance", "spectral"},
                "what the EXR holds");

@@ -17,6 +17,7 @@ namespace arcus::render {
 
 struct FilmSettings {
   double exposure_ev = 0;      ///< of the PNG, in stops; the EXR is never exposed
+  std::string adaptation = "day";  ///< of the PNG: day | night; the EXR is what it is
   std::string white = "auto";  ///< auto | D65 | equal_energy | a temperature in K; see white_of
   std::vector<std::string> channels{
       "rgb"};                    ///< rgb | xyz | variance | spectral, any number of them

@@ -65,6 +65,7 @@ class Tree {
       leave_matte(b, *hit, *matte);
       return true;
     }
+    if (const Sea* sea = hit->material->sea()) return leave_sea(b, *hit, SeaView(*sea, hit->normal, -b.ray.direction, wavelengths_));
     split(b, *hit);
     return false;
   }
@@ -99,6 +100,30 @@ class Tree {
     b.sky_share = sky.is_asked() ? static_cast<float>(found / (sky.density_per_sr(away) + found)) : 1;
     b.departure = hit.departure(false);
     b.ray = media::Ray{hit.position_m, away};
+  }
+
+  /// False where the light goes into another wave.
+  bool leave_sea(Branch& b, const Hit& hit, const SeaView& sea) {
+    const Sun& sun = scene_.sun;
+    b.light.polarised.depolarise();
+    if (sun.is_on()) {
+      const Vec3 to_sun = sun.draw(random_.uniform_double(), random_.uniform_double());
+      const double cosine = dot(hit.normal, to_sun);
+      ++work_.sun_rays;
+      if (cosine > 0 && !scene_.surfaces.is_blocked({hit.position_m, to_sun}, hit.departure(false)))
+        total_ += b.light.contribution(sun.radiance(to_sun, sunlight_) * sea.value_per_sr(to_sun)) *
+                  static_cast<float>(cosine / (sun.density_per_sr(to_sun) + sea.density_per_sr(to_sun)));
+    }
+    const Vec3 away = sea.draw(random_);
+    const double cosine = dot(hit.normal, away);
+    if (!(cosine > 0)) return false;
+    const double found = sea.density_per_sr(away);
+    b.light.weight *= sea.value_per_sr(away) * static_cast<float>(cosine / found);
+    b.sky_share = 1;  // the sky was not asked
+    b.sun_share = static_cast<float>(found / (sun.density_per_sr(away) + found));
+    b.departure = hit.departure(false);
+    b.ray = media::Ray{hit.position_m, away};
+    return true;
   }
 
   void split(const Branch& b, const Hit& hit) {

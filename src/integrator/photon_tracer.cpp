@@ -93,6 +93,8 @@ struct PhotonTracer::Flight : PathLight {
 PhotonTracer::PhotonTracer(const Scene& scene, long long max_bounces) : scene_(scene), max_bounces_(max_bounces) {
   if (!scene.sun.is_on())
     throw bad_input("render.integrator", "'photon_map' and a sun without light", "sun.irradiance_scale above 0 expected: photons come from the sun");
+  if (scene.surfaces.has_sea())
+    throw bad_input("render.integrator", "'photon_map' and a surface of type 'sea'", "'volume_path' or 'path' expected: photons know no waves");
   const media::Medium& medium = *scene.medium;
   for (int k = 0; k < medium.component_count(); ++k)
     if (medium.component(k).species && medium.component(k).species->is_oriented())
@@ -131,7 +133,7 @@ void PhotonTracer::add_targets() {
 bool PhotonTracer::set_out(Flight& flight, const Ball& through) const {
   const Sun& sun = scene_.sun;
   const SunLight light = sun.light({{550, 550, 550, 550}});
-  const float brightest = sun.radiance(sun.to_centre(), light)[0];
+  const float brightest = sun.most_radiance(light);
   Vec3 to_sun;
   do {
     to_sun = sun.draw(flight.random.uniform_double(), flight.random.uniform_double());

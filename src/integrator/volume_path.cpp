@@ -247,8 +247,8 @@ bool VolumePath::meet_ground(Path& path, double distance_m, Sample& sample) cons
   const Vec3 position = path.ray.at(distance_m);
   Vec3 up = position;
   up.z += scene_.air->settings().planet_radius_m;
-  reflect(path, Hit{distance_m, position, up.normalized(), &*scene_.ground, false, {}}, *scene_.ground->matte(), sample);
-  return true;
+  const Hit hit{distance_m, position, up.normalized(), &*scene_.ground, false, {}};
+  return reflect(path, hit, MatteLobe{*scene_.ground->matte(), hit.position_m, hit.normal, sample.wavelengths}, sample);
 }
 
 void VolumePath::dim_by_air(Path& path, double distance_m, const Sample& sample) const {
@@ -441,8 +441,11 @@ void VolumePath::part(const Path& path, const Vec3& position_m, const phase::Pha
 bool VolumePath::meet(Path& path, const Hit& hit, Sample& sample) const {
   ++sample.work.surface_hits;
   dim(path, hit, sample.wavelengths);
-  if (const Matte* matte = hit.material->matte()) {
-    reflect(path, hit, *matte, sample);
+  if (const Matte* matte = hit.material->matte()) return reflect(path, hit, MatteLobe{*matte, hit.position_m, hit.normal, sample.wavelengths}, sample);
+  if (const Sea* sea = hit.material->sea()) {
+    if (!reflect(path, hit, SeaView(*sea, hit.normal, -path.ray.direction, sample.wavelengths), sample)) return false;
+    // Where the camera sees a sea it is what is looked at, dark as it is.
+    if (path.bounces == 1) path.seen_weight = std::min(path.seen_weight, path.weight.mean() / path.density.mean());
     return true;
   }
   // Nothing was asked for light that arrives this way, so a direct hit of the sun counts in full, and the sky.
@@ -451,7 +454,8 @@ bool VolumePath::meet(Path& path, const Hit& hit, Sample& sample) const {
   return turn_at_smooth(path, path.ray, path.departure, hit, sample.wavelengths, sample.random);
 }
 
-void VolumePath::reflect(Path& path, const Hit& hit, const Matte& material, Sample& sample) const {
+template <class Lobe>
+bool VolumePath::reflect(Path& path, const Hit& hit, const Lobe& lobe, Sample& sample) const {
   const Wavelengths& wavelengths = sample.wavelengths;
   Random& random = sample.random;
   const Sun& sun = scene_.sun;
@@ -460,7 +464,7 @@ void VolumePath::reflect(Path& path, const Hit& hit, const Matte& material, Samp
     return to_sun_share > 0 ? glow.value(sun.to_centre(), away, wavelengths)[0] : 0;
   };
   const auto density = [&](const Vec3& away) {
-    return Matte::density_per_sr(hit.normal, away) + to_sun_share * to_sun_density(away);
+    return lobe.density_per_sr(away) + to_sun_share * to_sun_density(away);
   };
   const Departure departure = hit.departure(false);
   path.polarised.depolarise();
@@ -468,7 +472,7 @@ void VolumePath::reflect(Path& path, const Hit& hit, const Matte& material, Samp
     const Vec3 to_sun = sun.draw(random.uniform_double(), random.uniform_double());
     const double cosine = dot(hit.normal, to_sun);
     if (cosine > 0)
-      sample.total += path.contribution(sun.radiance(to_sun, sample.sunlight) * material.value_per_sr(hit.position_m, hit.normal, to_sun, wavelengths) *
+      sample.total += path.contribution(sun.radiance(to_sun, sample.sunlight) * lobe.value_per_sr(to_sun) *
                                         sun_transmittance(hit.position_m, departure, to_sun, sample)) *
                       static_cast<float>(cosine / (sun.density_per_sr(to_sun) + density(to_sun)));
   }
@@ -477,25 +481,26 @@ void VolumePath::reflect(Path& path, const Hit& hit, const Matte& material, Samp
     const Vec3& to_sky = *drawn;
     const double cosine = dot(hit.normal, to_sky);
     if (cosine > 0)
-      sample.total += path.contribution(sky.radiance(to_sky, wavelengths) * material.value_per_sr(hit.position_m, hit.normal, to_sky, wavelengths) *
+      sample.total += path.contribution(sky.radiance(to_sky, wavelengths) * lobe.value_per_sr(to_sky) *
                                         sun_transmittance(hit.position_m, departure, to_sky, sample)) *
                       static_cast<float>(cosine / (sky.density_per_sr(to_sky) + density(to_sky)));
   }
   const auto leave = [&](Path& leaving, const Vec3& away) {
     const double cosine = dot(hit.normal, away), found = density(away);
+    if (!(cosine > 0)) return false;
     leaving.sun_share = static_cast<float>(found / (sun.density_per_sr(away) + found));
     leaving.sky_share = sky.is_asked() ? static_cast<float>(found / (sky.density_per_sr(away) + found)) : 1;
-    leaving.weight *= cosine > 0 ? material.value_per_sr(hit.position_m, hit.normal, away, wavelengths) * static_cast<float>(cosine / found) : Spectrum();
+    leaving.weight *= lobe.value_per_sr(away) * static_cast<float>(cosine / found);
     leaving.promise = promise(to_sun_share, to_sun_density(away));
     leaving.ray = media::Ray{hit.position_m, away};
     leaving.departure = departure;
+    return true;
   };
   if (to_sun_share > 0 && random.uniform() < to_sun_share) {
     Path second = path;
-    leave(second, glow.draw(sun.to_centre(), wavelengths, random).outgoing);
-    follow(second, sample);
+    if (leave(second, glow.draw(sun.to_centre(), wavelengths, random).outgoing)) follow(second, sample);
   }
-  leave(path, Matte::draw(hit.normal, random.uniform_double(), random.uniform_double()));
+  return leave(path, lobe.draw(random));
 }
 
 Spectrum VolumePath::sun_transmittance(const Vec3& position_m, const Departure& departure, const Vec3& to_sun, Sample& sample) const {

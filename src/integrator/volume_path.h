@@ -83,7 +83,9 @@ class VolumePath : public Integrator {
   void part(const Path& path, const Vec3& position_m, const phase::PhaseFunction& function, Sample& sample) const;
   /// Reflects from a surface, or goes through it: adds sunlight, turns the path. False where it ends.
   bool meet(Path& path, const Hit& hit, Sample& sample) const;
-  void reflect(Path& path, const Hit& hit, const Matte& material, Sample& sample) const;
+  /// The same from a surface that spreads it. False where it ends.
+  template <class Lobe>
+  bool reflect(Path& path, const Hit& hit, const Lobe& lobe, Sample& sample) const;
   /// Share of the light from outside, of sun or sky, that reaches a point from a direction without detours [0 to 1].
   Spectrum sun_transmittance(const Vec3& position_m, const Departure& departure, const Vec3& to_sun, Sample& sample) const;
 

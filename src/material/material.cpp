@@ -26,8 +26,9 @@ void list_filter_keys(Keys& keys, MaterialSettings& material) {
 
 void list_keys(Keys& keys, MaterialSettings& material) {
   const std::string before = material.type;
-  keys.choice("type", material.type, {"matte", "mirror", "transparent", "dielectric"},
-              "matte: the same in all directions; mirror; transparent: shares that do not depend on the angle; dielectric: Fresnel's, with polarisation");
+  keys.choice("type", material.type, {"matte", "mirror", "transparent", "dielectric", "sea"},
+              "matte: the same in all directions; mirror; transparent: shares that do not depend on the angle; dielectric: Fresnel's, with polarisation; "
+              "sea: waves by the wind, for volume_path and path");
   if (material.type != before) material.albedo = {material.type == "mirror" ? 1 : 0.2};
   const bool is_matte = material.type == "matte", is_transparent = material.type == "transparent";
   if (keys.only_if(is_matte || material.type == "mirror", "matte, mirror"))
@@ -56,10 +57,19 @@ void list_keys(Keys& keys, MaterialSettings& material) {
       keys.refuse("transmittance", number_text(material.transmittance),
                   "must be at most 1 - reflectance = " + number_text(1 - material.reflectance));
   }
-  if (keys.only_if(is_transparent || material.type == "dielectric", "transparent, dielectric")) {
-    list_index_key(keys, material);
-    list_filter_keys(keys, material);
+  const bool is_body = is_transparent || material.type == "dielectric", is_sea = material.type == "sea";
+  if (keys.only_if(is_sea, "sea")) {
+    keys.number("wind_m_per_s", material.wind_m_per_s, between(0, 30), "12.5 m above the sea: how steep the waves are (Cox and Munk 1954, measured up to 14)");
+    keys.choice("slopes", material.slopes, {"anisotropic", "isotropic"}, "anisotropic: steeper along the wind than across it");
+    if (keys.only_if(material.slopes == "anisotropic", "slopes = anisotropic"))
+      keys.number("wind_from_deg", material.wind_from_deg, any(), "compass azimuth from which the wind blows");
+    keys.numbers("water_albedo", material.water_albedo, between(0, 0.5), 1, 3,
+                 "share of the light below the surface that comes back up: one number, or linear Rec.709 [R, G, B]; the default is clear ocean, coasts have more green");
+    if (material.water_albedo.size() == 2) keys.refuse("water_albedo", "2 numbers", "must have 1 or 3");
+    keys.flag("whitecaps", material.whitecaps, "foam, by the wind: 0.09 % of the sea at 5 m/s, 1 % at 10, 4 % at 15");
   }
+  if (keys.only_if(is_body || is_sea, "transparent, dielectric, sea")) list_index_key(keys, material);
+  if (keys.only_if(is_body, "transparent, dielectric")) list_filter_keys(keys, material);
 }
 
 Turns Material::turns(const Vec3& incoming, const Vec3& normal, bool from_inside, const Wavelengths& wavelengths,
@@ -112,6 +122,9 @@ Material make_material(const MaterialSettings& settings, const std::string& fold
     if (settings.index.empty()) return phase::RefractiveIndex::constant(settings.index_constant);
     return phase::RefractiveIndex::named(phase::RefractiveIndex::is_built_in(settings.index) ? settings.index : path_from(folder, settings.index));
   }();
+  if (settings.type == "sea")
+    return Material(Sea(ClearBody(index, 1, 1), cox_munk_slopes(settings.wind_m_per_s, settings.slopes == "isotropic"), settings.wind_from_deg,
+                        colour(settings.water_albedo), settings.whitecaps ? foam_cover(settings.wind_m_per_s) : 0));
   const ClearBody body(index, colour(settings.filter), settings.filter_m, settings.enlargement);
   if (settings.type == "transparent") return Material(Transparent{body, settings.reflectance, settings.transmittance});
   return Material(Dielectric{body});

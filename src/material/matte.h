@@ -10,6 +10,7 @@
 #include "phase/base/curve.h"
 #include "phase/base/frame.h"
 #include "src/material/colour_map.h"
+#include "phase/base/random.h"
 #include "src/material/smooth_spectrum.h"
 
 namespace arcus::render {
@@ -81,6 +82,17 @@ class Matte {
   double per_edge_ = 0;  // 0: one colour
   std::shared_ptr<const ColourMap> map_;
   std::shared_ptr<const Curve> measured_;
+};
+
+/// A matte surface at a place: what spreads light can be asked for values, densities and draws.
+struct MatteLobe {
+  const Matte& matte;
+  const Vec3 &position_m, &normal;
+  const Wavelengths& wavelengths;
+
+  Spectrum value_per_sr(const Vec3& away) const { return matte.value_per_sr(position_m, normal, away, wavelengths); }
+  double density_per_sr(const Vec3& away) const { return Matte::density_per_sr(normal, away); }
+  Vec3 draw(Random& random) const { return Matte::draw(normal, random.uniform_double(), random.uniform_double()); }
 };
 
 }  // namespace arcus::render

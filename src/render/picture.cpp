@@ -19,7 +19,9 @@ ToRgb to_rgb_of(const SceneSettings& settings, const Xyz& sun) { return to_rgb_f
 
 ToneSettings tone_of(const SceneSettings& settings, const Xyz& sun) {
   // Under no sun a matte surface under the sky of radiance 1 is the reference.
-  return {settings.film.exposure_ev, sun.y > 0 ? sun.y / pi : 1};
+  ToneSettings tone{settings.film.exposure_ev, sun.y > 0 ? sun.y / pi : 1, {}};
+  if (settings.film.adaptation == "night") tone.night = to_rgb_of(settings, sun);
+  return tone;
 }
 
 void describe(Metadata& metadata, const SceneSettings& settings, double samples_per_pixel, double render_seconds) {

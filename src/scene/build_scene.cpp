@@ -97,6 +97,7 @@ void choose_size(media::Component& component, const std::vector<double>& size_no
 phase::SpeciesOptions species_options(const SceneSettings& scene, const BuildOptions& options) {
   phase::SpeciesOptions result;
   result.sun_angular_radius_rad = radians(scene.sun.angular_radius_deg);
+  result.disc = scene.sun.disc();
   if (scene.sun.irradiance_scale > 0) result.sun_elevation_deg = scene.sun.elevation_deg;
   result.cache_folder = options.cache_folder;
   result.log = options.log;

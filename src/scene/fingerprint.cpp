@@ -29,8 +29,8 @@ class Naming {
   }
   /// The file with a body's index, where there is one.
   void index(MaterialSettings& material) {
-    const bool is_clear = material.type == "transparent" || material.type == "dielectric";
-    if (is_clear && !material.index.empty() && !phase::RefractiveIndex::is_built_in(material.index)) file(material.index);
+    const bool has_index = material.type == "transparent" || material.type == "dielectric" || material.type == "sea";
+    if (has_index && !material.index.empty() && !phase::RefractiveIndex::is_built_in(material.index)) file(material.index);
   }
   std::vector<SceneInput> inputs() && { return std::move(inputs_); }
 
@@ -54,6 +54,7 @@ SceneIdentity scene_identity(const SceneSettings& settings) {
   SceneSettings named = settings;
   Naming naming(settings.folder);
   named.film.exposure_ev = 0;
+  named.film.adaptation = "day";
   if (named.sun.spectrum != "solar" && named.sun.spectrum != "equal_energy") naming.file(named.sun.spectrum);
   if (named.sky.type == "image") naming.file(named.sky.file);
   for (MediumSettings& medium : named.media) {

@@ -15,7 +15,7 @@ struct SceneInput {
 };
 
 struct SceneIdentity {
-  /// Equal ones make equal pixels with the same version of the program. What a file is called, and the exposure of the PNG, change none.
+  /// Equal ones make equal pixels with the same version of the program. What a file is called, and what the PNG makes of the picture, change none.
   std::string hash;
   std::vector<SceneInput> inputs;  ///< in the order of the scene; each once
 };

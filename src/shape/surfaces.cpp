@@ -1,5 +1,7 @@
 #include "src/shape/surfaces.h"
 
+#include <algorithm>
+
 namespace arcus::render {
 namespace {
 
@@ -41,10 +43,14 @@ Surfaces::Surfaces(SurfaceParts parts, bool is_exhaustive)
   if (has_pieces_) intersector_ = is_exhaustive ? make_exhaustive(*groups_) : make_hierarchy(*groups_);
 }
 
+bool Surfaces::has_sea() const {
+  return std::any_of(materials_->begin(), materials_->end(), [](const Material& material) { return material.sea() != nullptr; });
+}
+
 std::vector<PieceId> Surfaces::smooth_planes() const {
   std::vector<PieceId> result;
   for (std::uint32_t i = 0; i < planes_.size(); ++i)
-    if (!(*materials_)[planes_[i].material].matte()) result.push_back({plane_group, i});
+    if ((*materials_)[planes_[i].material].is_smooth()) result.push_back({plane_group, i});
   return result;
 }
 

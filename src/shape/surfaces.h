@@ -72,6 +72,7 @@ class Surfaces {
   bool has_planes() const { return !planes_.empty(); }
   /// Those planes that are no matte ones, as hits name them.
   std::vector<PieceId> smooth_planes() const;
+  bool has_sea() const;
   const std::vector<PieceGroup>& groups() const { return *groups_; }
   const std::vector<Material>& materials() const { return *materials_; }
 

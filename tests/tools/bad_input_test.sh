@@ -336,6 +336,28 @@ for line in 'aspect_ratio = 1e-4' 'aspect_ratio = 1e4' 'upper_pyramid = { height
 done
 rm -f ice.nc
 
+# The moon, the night, the sea.
+printf '[camera]\nresolution = [4, 4]\n' >m.toml
+expect 2 "sun.body: text 'mars' found; must be sun or moon" "$ARCUS" render m.toml --set sun.body=mars
+expect 2 'sun.phase_angle_deg.*between 0 and 175' "$ARCUS" render m.toml --set sun.body=moon --set sun.phase_angle_deg=180
+expect 2 'sun.phase_angle_deg' "$ARCUS" render m.toml --set sun.phase_angle_deg=90
+expect 2 "film.adaptation: text 'dusk' found; must be day or night" "$ARCUS" render m.toml --set film.adaptation=dusk
+expect 2 "film.adaptation.*Did you mean 'night'" "$ARCUS" render m.toml --set film.adaptation=nigt
+sea() { printf '[camera]\nresolution = [4, 4]\n[[surface]]\nshape = { type = "plane" }\nmaterial = { type = "sea", %s }\n' "$1" >s.toml; }
+sea 'wind_m_per_s = -1'
+expect 2 's.toml:5.*wind_m_per_s: -1.*between 0 and 30' "$ARCUS" render s.toml
+sea 'water_albedo = [0.1, 0.2]'
+expect 2 's.toml:5.*water_albedo: 2 numbers.*1 or 3' "$ARCUS" render s.toml
+sea 'water_albedo = 0.9'
+expect 2 's.toml:5.*water_albedo.*between 0 and 0.5' "$ARCUS" render s.toml
+sea 'slopes = "isotropic", wind_from_deg = 20'
+expect 2 's.toml:5.*wind_from_deg' "$ARCUS" render s.toml
+sea 'wind_m_per_s = 5'
+for other in whitted ray_cast photon_map; do
+  expect 2 "'$other' and a surface of type 'sea'.*'volume_path' or 'path' expected" "$ARCUS" render s.toml --set render.integrator=$other
+done
+must "$ARCUS" render s.toml --set render.samples_per_pixel=1 --quiet
+
 # The clear sky.
 expect 2 'camera.position_m.*below sea level' "$ARCUS" render a.toml --set sky.type=clear --set camera.position_m=[0,0,-3]
 expect 2 "'whitted' and a clear sky" "$ARCUS" render a.toml --set sky.type=clear --set render.integrator=whitted

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -268,6 +269,32 @@ TEST(SphereTable, LeavesTheIsotropicFunctionIsotropicUnderTheSunsDisc) {
         table.sunlit_value_per_sr(0, half_angle_of_rad(radians(deg)), {{390, 450, 550, 650}});
     for (int i = 0; i < 4; ++i) EXPECT_NEAR(value[i] * 4 * pi, 1, 1e-6) << deg;
   }
+}
+
+TEST(SphereTable, UnderAMoonIsTheMeanOverAUniformDisc) {
+  const ScatteringTable drops = synthetic_table({200}, wavelengths_nm(380, 780, 20), 8);
+  SphereTableOptions options;
+  options.sun_angular_radius_rad = 10 * sun_radius_rad;
+  options.wavelength_nodes = 21;
+  const SphereTable sun(drops, options);
+  options.disc = DiscKind::uniform;
+  const SphereTable moon(drops, options);
+  const Wavelengths at = {{550, 550, 550, 550}};
+  // Straight on, equal areas of the disc are equal steps of sin2(angle / 2).
+  const double s_disc = std::pow(std::sin(10 * sun_radius_rad / 2), 2);
+  double mean = 0;
+  constexpr int steps = 20000;
+  for (int i = 0; i < steps; ++i) {
+    const double s = s_disc * (i + 0.5) / steps;
+    mean += moon.value_per_sr(0, HalfAngle{s, 1 - s}, at)[0] / steps;
+  }
+  EXPECT_NEAR(moon.sunlit_value_per_sr(0, HalfAngle{0, 1}, at)[0] / mean, 1, 3e-3) << "linear between the nodes of angle and wavelength";
+  double largest = 0;
+  for (int i = 0; i < moon.angle_count(); ++i) {
+    const float ratio = sun.sunlit_value_per_sr(0, moon.angle(i), at)[0] / moon.sunlit_value_per_sr(0, moon.angle(i), at)[0];
+    largest = std::max(largest, std::fabs(static_cast<double>(ratio) - 1));
+  }
+  EXPECT_GT(largest, 0.02) << "the sun's disc is brightest in the middle";
 }
 
 TEST(SphereTable, WithoutASunMakesNoSunlitValues) {

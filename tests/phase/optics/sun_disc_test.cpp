@@ -53,6 +53,15 @@ TEST(DiscProfile, InterpolatesBetweenWavelengths) {
   EXPECT_NEAR(disc.relative_radiance(0.9, 0.5 * (519.93 + 541.76)), 0.5 * (a + b), 1e-12);
 }
 
+TEST(DiscProfile, OfTheMoonIsUniform) {
+  const DiscProfile moon(radians(mean_moon_radius_deg), DiscKind::uniform);
+  for (const double rho : {0.0, 0.5, 0.999})
+    for (const double nm : {400.0, 700.0}) EXPECT_EQ(moon.relative_radiance(rho, nm), 1);
+  EXPECT_EQ(moon.relative_radiance(1.001, 550), 0);
+  EXPECT_NEAR(mean_over_disc(moon, 550), 1, 1e-9);
+  EXPECT_NEAR(moon.solid_angle_sr(), 6.4177e-5, 3e-8) << "Kieffer and Stone (2005)";
+}
+
 TEST(DiscProfile, HasTheSunsSolidAngle) {
   EXPECT_NEAR(DiscProfile(radians(mean_sun_radius_deg)).solid_angle_sr(), 6.80e-5, 1e-7);
 }

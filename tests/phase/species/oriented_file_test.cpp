@@ -51,6 +51,12 @@ TEST(OrientedFile, ComesFromTheCacheAsItWasMade) {
   EXPECT_EQ(recipe_from_text(file.recipe, "file").map_step_deg, 5);
   oriented_table_of(recipe, 12.5, 0.2666, options);  // another sun, another table
   EXPECT_GT(computed, 0);
+  computed = 0;
+  options.disc = DiscKind::uniform;  // and a moon in its place
+  const OrientedTable under_moon = oriented_table_of(recipe, 12, 0.2666, options);
+  EXPECT_GT(computed, 0);
+  EXPECT_NE(under_moon.scattering_m2_per_sr, made.scattering_m2_per_sr);
+  EXPECT_NE(oriented_table_id(recipe, 12, 0.2666), oriented_table_id(recipe, 12, 0.2666, {}, DiscKind::uniform));
 }
 
 TEST(OrientedFile, ADamagedOneIsMadeAgain) {
