@@ -47,10 +47,10 @@ Ray Atmosphere::clipped(const Ray& ray) const {
 }
 
 AirColumns Atmosphere::columns(const Ray& ray) const {
-  const Ray inside = clipped(ray);
-  const double begin = inside.nearest_m, end = inside.farthest_m;
-  if (!(begin < end)) return {};
   const Flight flight(ray.origin_m, ray.direction, settings_.planet_radius_m, height_m(ray.origin_m));
+  const double half_below_top = flight.half_below_m(settings_.top_m);
+  const double begin = std::max(ray.nearest_m, flight.to_lowest_m - half_below_top), end = std::min(ray.farthest_m, flight.to_lowest_m + half_below_top);
+  if (!(begin < end)) return {};
 
   // Panels end where ozone has its corners, and before molecules or haze have fallen to less than e⁻³ in one: so eight points are good to a millionth.
   static constexpr std::array<double, 11> layers{500, 1500, 3000, 5000, 7500, 10000, 25000, 40000, 65000, 90000, 110000};

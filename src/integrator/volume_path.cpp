@@ -69,6 +69,8 @@ struct VolumePath::Path : PathLight {
   /// The weight of what the camera sees, in whose units it is judged what a path may bring.
   float seen_weight = 1;
   long long bounces = 0;
+  /// Optical depth at the first wavelength until air is met, drawn once for many stretches; below 0: to be drawn.
+  double air_depth_left = -1;
 
   /// True where one wavelength alone is left, the hero.
   bool is_alone() const { return density[1] == 0 && density[2] == 0 && density[3] == 0; }
@@ -112,7 +114,10 @@ VolumePath::VolumePath(const Scene& scene, long long max_bounces, SunReach sun_r
 Spectrum VolumePath::radiance(const media::Ray& camera_ray, const Wavelengths& wavelengths, const FirstNumbers& first,
                               Random& random, Work& work) const {
   Sample sample{wavelengths, random, work, scene_.sun.light(wavelengths), {}, {}};
-  if (scene_.air) sample.air.emplace(wavelengths, scene_.haze.get());
+  if (scene_.air) {
+    sample.air.emplace(wavelengths, scene_.haze.get());
+    sample.most_air_per_m = sample.air->first_depth(scene_.air->density(0));
+  }
   Path path;
   path.ray = camera_ray;
   const auto hit = scene_.surfaces.nearest_hit(path.ray);
@@ -190,24 +195,25 @@ void VolumePath::follow(Path& path, Sample& sample) const {
 bool VolumePath::advance(Path& path, media::CollisionWalk* walk, const std::optional<Hit>& hit, Sample& sample) const {
   std::optional<media::AirCollision> in_air;
   AirEnd end{never, never};
-  double air_m = never, air_depth = 0;
-  // Up to here there is certainly no collision with air, which is nowhere denser than at sea level: within clouds paths seldom get so far.
+  double air_m = never;  // where air, planet or the sky's table end the stretch
+  // What is not needed is not asked for. Air is nowhere denser than at sea level, so up to here it is certainly not met: within clouds paths seldom get so
+  // far. And whatever lies above z = 0, as the ray's origin does, lies before the planet and before the end of the region.
   double safe_m = never;
   if (scene_.air) {
-    if (!hit) end = air_end(path.ray);
-    air_depth = -std::log1p(-sample.random.uniform_double());
-    safe_m = std::min(end.nearest_m(), air_depth / static_cast<double>(sample.air->optical_depth(scene_.air->density(0))[0]));
+    if (path.air_depth_left < 0) path.air_depth_left = -std::log1p(-sample.random.uniform_double());
+    safe_m = path.ray.origin_m.z < 0 ? 0 : path.air_depth_left / sample.most_air_per_m;
   }
   const auto meet_air = [&] {
+    if (!hit) end = air_end(path.ray);
     media::Ray stretch = path.ray;
     stretch.farthest_m = std::min(stretch.farthest_m, end.nearest_m());
-    in_air = media::air_collision_at(*scene_.air, stretch, *sample.air, air_depth);
+    in_air = media::air_collision_at(*scene_.air, stretch, *sample.air, path.air_depth_left);
     air_m = in_air ? in_air->distance_m : end.nearest_m();
     safe_m = never;
   };
   media::Collision collision;
   while (walk && walk->next(collision)) {
-    if (collision.distance_m > safe_m) meet_air();
+    if (safe_m < never && (collision.distance_m > safe_m || collision.position_m.z < 0)) meet_air();
     if (collision.distance_m >= air_m) break;
     ++sample.work.tentative_collisions;
     if (sample.random.uniform() * collision.majorant_per_m < collision.extinction_per_m[0]) {
@@ -218,7 +224,10 @@ bool VolumePath::advance(Path& path, media::CollisionWalk* walk, const std::opti
     path.pass_null_collision(collision);
   }
   if (safe_m < never) meet_air();
-  if (in_air) return path.bounces++ != max_bounces_ && scatter_in_air(path, *in_air, sample);
+  if (in_air) {
+    path.air_depth_left = -1;
+    return path.bounces++ != max_bounces_ && scatter_in_air(path, *in_air, sample);
+  }
   if (scene_.air) dim_by_air(path, std::min(path.ray.farthest_m, end.nearest_m()), sample);
   return leave_air(path, end, hit, sample);
 }
@@ -258,6 +267,8 @@ void VolumePath::dim_by_air(Path& path, double distance_m, const Sample& sample)
   const Spectrum ratio = media::transmittance_over_first(depth);
   path.weight *= ratio;
   path.density *= ratio;
+  // What rounding may take beyond what was drawn.
+  if (path.air_depth_left >= 0) path.air_depth_left = std::max(0.0, path.air_depth_left - static_cast<double>(depth[0]));
 }
 
 bool VolumePath::scatter_in_air(Path& path, const media::AirCollision& collision, Sample& sample) const {
@@ -423,7 +434,10 @@ void VolumePath::part(const Path& path, const Vec3& position_m, const phase::Pha
     Wavelengths wavelengths = sample.wavelengths;
     std::swap(wavelengths.nm[0], wavelengths.nm[static_cast<std::size_t>(j)]);
     Sample alone{wavelengths, sample.random, sample.work, sample.sunlight.with_first(j), {}, {}};
-    if (sample.air) alone.air = sample.air->with_first(j);
+    if (sample.air) {
+      alone.air = sample.air->with_first(j);
+      alone.most_air_per_m = alone.air->first_depth(scene_.air->density(0));
+    }
     Path one = path;
     const phase::Draw draw = function.draw(path.ray.direction, wavelengths, sample.random);
     one.density = {1, 0, 0, 0};

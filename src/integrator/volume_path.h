@@ -47,7 +47,8 @@ class VolumePath : public Integrator {
     Work& work;
     SunLight sunlight;
     std::optional<media::AirOptics> air;  ///< where there is air
-    Spectrum total;  ///< the estimate so far
+    Spectrum total;                       ///< the estimate so far
+    double most_air_per_m = 0;            ///< extinction of air by the first wavelength at sea level
   };
   /// Follows a path until it ends.
   void follow(Path& path, Sample& sample) const;
