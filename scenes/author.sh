@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Authors the media of the scenes in this folder. Usage: scenes/author.sh ARCUS NAME (rain_shower | cumulus | fogbow | glory | corona | halo_22 | parhelia | circumzenithal | display | droplets | slab)
+# Authors the media of the scenes in this folder. Usage: scenes/author.sh ARCUS NAME (rain_shower | shower_at_sunset | cumulus | fogbow | glory | corona | halo_22 | parhelia | circumzenithal | display | droplets | slab)
 set -euo pipefail
 arcus=$(realpath "${1:?usage: author.sh ARCUS NAME}")
 cd "$(dirname "${BASH_SOURCE[0]}")"
@@ -8,6 +8,9 @@ case "${2:?usage: author.sh ARCUS NAME}" in
     "$arcus" author rain -o rain_shower.vdb --drops narrow --radius-um 220 --radius-exponent 0.1 --variance 0.02 \
       --rain-mm-per-hour 0.4 --core-radius-m 700 --edge-width-m 500 --stretch 7 --centre-m=-2500,2500,0 --cloud-base-m 2600 \
       --virga-m 12000 --streak-contrast 0.45 --turbulence 0.25 ;;
+  shower_at_sunset)
+    "$arcus" author rain -o shower_at_sunset.vdb --rain-mm-per-hour 8 --core-radius-m 1300 --edge-width-m 700 --stretch 3.5 --centre-m=-1000,3600,0 \
+      --cloud-base-m 2600 --virga-m 9000 --streak-contrast 0.7 --voxel-m 40 ;;
   cumulus)
     "$arcus" author cloud -o cumulus.vdb --size-m 6000 --depth-m 1300 --seed 3 ;;
   fogbow)
@@ -42,5 +45,5 @@ case "${2:?usage: author.sh ARCUS NAME}" in
   slab)
     "$arcus" author box -o slab.vdb --name layer --optical-depth 5 --centre-m 0,0,0 --size-m 100000,100000,1 --voxels 4,4,4 \
       --phase-type hg --phase-g 0.85 ;;
-  *) echo "author.sh: no medium for '$2'; known: rain_shower, cumulus, fogbow, glory, corona, halo_22, parhelia, circumzenithal, display, slab" >&2; exit 2 ;;
+  *) echo "author.sh: no medium for '$2'; known: rain_shower, shower_at_sunset, cumulus, fogbow, glory, corona, halo_22, parhelia, circumzenithal, display, slab" >&2; exit 2 ;;
 esac
