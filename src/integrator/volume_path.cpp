@@ -1,17 +1,14 @@
 #include "src/integrator/volume_path.h"
 
 #include <cmath>
-#include <limits>
 
 #include "media/medium/scatterer.h"
 #include "media/tracking/collision_walk.h"
 #include "media/tracking/transmittance.h"
+#include "src/integrator/volume_path_state.h"
 
 namespace arcus::render {
 namespace {
-
-/// Expected tentative collisions of a camera ray below which it is split. Above, hardly anything passes straight on.
-constexpr double most_forced_depth = 3;
 
 // Light that has been scattered straight on by peaked phase functions arrives from around the sun. Paths that go there by
 // chance alone are rare and bright, so some set out on purpose for where the phase function, seen from the sun, is bright. All
@@ -26,21 +23,11 @@ constexpr float paths_to_sun = 0.2f;
 /// the sun would be far too bright.
 constexpr float again_to_sun = 0.3f;
 
-/// Paths expected to bring less than this, in units of the mean over all directions and of what the camera sees, are left to
-/// chance; those that are expected to bring more than the other are split.
-constexpr float roulette_below = 0.2f, split_above = 1;
-constexpr int most_splits = 4;
-
 /// Rays to the sun expected to bring less than this are left to chance, at least one in fifty being sent. The first of a path
 /// brings all that is seen of thin media, and is rarely spared.
 constexpr float enough_for_first_sun_ray = 0.01f, enough_for_sun_ray = 0.1f, least_sun_rays = 0.02f;
 /// The coarse optical depth overlooks holes: this share of it is believed.
 constexpr float believed_depth = 0.7f;
-
-constexpr double never = std::numeric_limits<double>::infinity();
-
-/// Dry air in the visible range (phase/optics/air.h says how little it changes over it).
-const phase::PhaseFunction by_air{phase::Rayleigh()};
 
 /// Where surfaces send them: about as wide as the glow around the sun in cloud and rain.
 const phase::PhaseFunction glow{phase::HenyeyGreenstein(0.95)};
@@ -55,55 +42,6 @@ float promise(float share_to_sun, double to_sun_density_per_sr) {
 bool is_within_body(const std::optional<Hit>& hit) { return hit && hit->from_inside && hit->material->body(); }
 
 }  // namespace
-
-struct VolumePath::Path : PathLight {
-  media::Ray ray;
-  Departure departure;  ///< of the ray
-  /// Share that a direct hit of the sun's disc counts: the rest was, or will be, found by asking the sun. 1 for what
-  /// the camera sees directly.
-  float sun_share = 1;
-  /// The same of the sky's light, where it is asked.
-  float sky_share = 1;
-  /// How bright it is likely to be where the path goes, in units of the mean over all directions.
-  float promise = 1;
-  /// The weight of what the camera sees, in whose units it is judged what a path may bring.
-  float seen_weight = 1;
-  long long bounces = 0;
-  /// Optical depth at the first wavelength until air is met, drawn once for many stretches; below 0: to be drawn.
-  double air_depth_left = -1;
-
-  /// True where one wavelength alone is left, the hero.
-  bool is_alone() const { return density[1] == 0 && density[2] == 0 && density[3] == 0; }
-
-  /// Sets out from a place within a medium.
-  void leave(const Vec3& position_m, const Vec3& direction) {
-    ray = media::Ray{position_m, direction};
-    departure = {};
-    polarised.depolarise();
-  }
-
-  void pass_null_collision(const media::Collision& collision) {
-    const Spectrum null = Spectrum::filled(collision.majorant_per_m) - collision.extinction_per_m;
-    const Spectrum ratio = null / null[0];
-    weight *= ratio;
-    density *= ratio;
-  }
-
-  /// What it is expected to bring, in units of the mean over all directions.
-  float expectation() const { return weight.mean() / (density.mean() * seen_weight) * promise; }
-
-  /// Ends paths that have little left to bring; the survivors take over (Arvo and Kirk 1990).
-  bool survives_roulette(Random& random) {
-    const float left = expectation();
-    if (left >= roulette_below) return true;
-    if (!(left > 0) || random.uniform() * roulette_below >= left) return false;
-    weight *= roulette_below / left;
-    return true;
-  }
-
-  /// How many the path is worth.
-  int splits() const { return static_cast<int>(std::clamp(2 / split_above * expectation(), 1.f, static_cast<float>(most_splits))); }
-};
 
 VolumePath::VolumePath(const Scene& scene, long long max_bounces)
     : VolumePath(scene, max_bounces, SunReach(*scene.medium, scene.sun.to_centre())) {}
@@ -146,28 +84,6 @@ Spectrum VolumePath::radiance(const media::Ray& camera_ray, const Wavelengths& w
   media::CollisionWalk walk(*scene_.medium, path.ray, wavelengths, random);
   if (advance(path, &walk, hit, sample)) follow(path, sample);
   return sample.total;
-}
-
-bool VolumePath::split_in_air(Path& path, const std::optional<Hit>& hit, double u, Sample& sample) const {
-  const AirEnd end = hit ? AirEnd{never, never} : air_end(path.ray);
-  media::Ray stretch = path.ray;
-  stretch.farthest_m = std::min(stretch.farthest_m, end.nearest_m());
-  const Spectrum whole = sample.air->optical_depth(scene_.air->columns(stretch));
-  if (!(whole[0] > 0 && whole.max() < most_forced_depth)) return false;
-
-  Path straight = path;
-  straight.weight *= media::transmittance(whole);
-  if (leave_air(straight, end, hit, sample)) follow(straight, sample);
-  // The collision's density at each wavelength is relative to that wavelength's own share of rays that collide.
-  Spectrum share;
-  for (int j = 0; j < wavelength_count; ++j) share[j] = -std::expm1(-whole[j]);
-  const auto collision = media::air_collision_at(*scene_.air, stretch, *sample.air, -std::log1p(-u * static_cast<double>(share[0])));
-  if (!collision || path.bounces++ == max_bounces_) return true;
-  path.weight *= share[0];
-  path.density *= Spectrum::filled(share[0]) / share;
-  if (!hit) path.seen_weight = share[0];
-  if (scatter_in_air(path, *collision, sample)) follow(path, sample);
-  return true;
 }
 
 void VolumePath::follow(Path& path, Sample& sample) const {
@@ -230,68 +146,6 @@ bool VolumePath::advance(Path& path, media::CollisionWalk* walk, const std::opti
   }
   if (scene_.air) dim_by_air(path, std::min(path.ray.farthest_m, end.nearest_m()), sample);
   return leave_air(path, end, hit, sample);
-}
-
-VolumePath::AirEnd VolumePath::air_end(const media::Ray& ray) const {
-  AirEnd end{scene_.air->distance_to_sea_level_m(ray), never};
-  if (scene_.sky_table) {
-    const auto inside = media::clip(ray, scene_.air_region_m);
-    end.exit_m = inside ? inside->end : 0;
-  }
-  return end;
-}
-
-bool VolumePath::leave_air(Path& path, const AirEnd& end, const std::optional<Hit>& hit, Sample& sample) const {
-  if (end.ground_m < never && end.ground_m <= end.exit_m) return meet_ground(path, end.ground_m, sample);
-  if (!hit) {
-    sample.total += escaped(path, end.exit_m, sample);
-    return false;
-  }
-  return pass(path, *hit, sample);
-}
-
-bool VolumePath::meet_ground(Path& path, double distance_m, Sample& sample) const {
-  if (!scene_.ground || path.bounces++ == max_bounces_) return false;
-  ++sample.work.surface_hits;
-  const Vec3 position = path.ray.at(distance_m);
-  Vec3 up = position;
-  up.z += scene_.air->settings().planet_radius_m;
-  const Hit hit{distance_m, position, up.normalized(), &*scene_.ground, false, {}};
-  return reflect(path, hit, MatteLobe{*scene_.ground->matte(), hit.position_m, hit.normal, sample.wavelengths}, sample);
-}
-
-void VolumePath::dim_by_air(Path& path, double distance_m, const Sample& sample) const {
-  media::Ray way = path.ray;
-  way.farthest_m = distance_m;
-  const Spectrum depth = sample.air->optical_depth(scene_.air->columns(way));
-  const Spectrum ratio = media::transmittance_over_first(depth);
-  path.weight *= ratio;
-  path.density *= ratio;
-  // What rounding may take beyond what was drawn.
-  if (path.air_depth_left >= 0) path.air_depth_left = std::max(0.0, path.air_depth_left - static_cast<double>(depth[0]));
-}
-
-bool VolumePath::scatter_in_air(Path& path, const media::AirCollision& collision, Sample& sample) const {
-  ++sample.work.scatterings;
-  const media::AirOptics& optics = *sample.air;
-  const Vec3 position = path.ray.at(collision.distance_m);
-  const Spectrum through = media::transmittance_over_first(collision.optical_depth);
-  // By gas or by a mode of haze, as the first wavelength meets them.
-  const auto meets = [&](const Spectrum& extinction_per_m, const Spectrum& scattering_per_m) {
-    path.weight *= through * scattering_per_m / extinction_per_m[0];
-    path.density *= through * extinction_per_m / extinction_per_m[0];
-  };
-  const Spectrum gas = optics.gas_depth(collision.density);
-  double left = optics.haze_modes == 0 ? 0 : sample.random.uniform_double() * optics.first_depth(collision.density) - static_cast<double>(gas[0]);
-  if (optics.haze_modes == 0 || left < 0) {
-    meets(gas, optics.molecular_scattering(collision.density));
-    return turn(path, position, by_air, sample);
-  }
-  int mode = 0;
-  const auto extinction_of = [&](int m) { return optics.mode_ratio[static_cast<std::size_t>(m)] * static_cast<float>(collision.density.haze_depth_550); };
-  while (mode + 1 < optics.haze_modes && left >= static_cast<double>(extinction_of(mode)[0])) left -= static_cast<double>(extinction_of(mode++)[0]);
-  meets(extinction_of(mode), extinction_of(mode) * scene_.haze->albedo(mode, sample.wavelengths));
-  return turn(path, position, scene_.haze->phase_function(mode), sample);
 }
 
 bool VolumePath::pass(Path& path, const Hit& hit, Sample& sample) const {
@@ -468,6 +322,16 @@ bool VolumePath::meet(Path& path, const Hit& hit, Sample& sample) const {
   return turn_at_smooth(path, path.ray, path.departure, hit, sample.wavelengths, sample.random);
 }
 
+bool VolumePath::meet_ground(Path& path, double distance_m, Sample& sample) const {
+  if (!scene_.ground || path.bounces++ == max_bounces_) return false;
+  ++sample.work.surface_hits;
+  const Vec3 position = path.ray.at(distance_m);
+  Vec3 up = position;
+  up.z += scene_.air->settings().planet_radius_m;
+  const Hit hit{distance_m, position, up.normalized(), &*scene_.ground, false, {}};
+  return reflect(path, hit, MatteLobe{*scene_.ground->matte(), hit.position_m, hit.normal, sample.wavelengths}, sample);
+}
+
 template <class Lobe>
 bool VolumePath::reflect(Path& path, const Hit& hit, const Lobe& lobe, Sample& sample) const {
   const Wavelengths& wavelengths = sample.wavelengths;
@@ -522,7 +386,7 @@ Spectrum VolumePath::sun_transmittance(const Vec3& position_m, const Departure& 
   const media::Ray ray{position_m, to_sun};
   if (scene_.surfaces.is_blocked(ray, departure)) return {};
   if (scene_.air) {
-    if (scene_.air->distance_to_sea_level_m(ray) < std::numeric_limits<double>::infinity()) return {};  // the planet stands before the sun
+    if (scene_.air->distance_to_sea_level_m(ray) < never) return {};  // the planet stands before the sun
     const Spectrum through_air = media::transmittance(sample.air->optical_depth(scene_.air->columns(ray)));
     return through_air * media::ratio_transmittance(*scene_.medium, ray, sample.wavelengths, sample.random);
   }
