@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <complex>
 #include <cstddef>
 
 #include "phase/base/units.h"

@@ -196,7 +196,7 @@ void SkySource::solve() {
   light_ = once;
   irradiance_ = irradiance_once;
   double before = 0;
-  for (iterations_ = 1; iterations_ < most_iterations; ++iterations_) {
+  for (int iteration = 1; iteration < most_iterations; ++iteration) {
     next = once;
     irradiance_next = irradiance_once;
     gather(

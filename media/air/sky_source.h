@@ -36,8 +36,6 @@ class SkySource {
     Vec3 position_m, up, towards, aside;
   };
   Place place(double height_m, double zenith_rad) const;
-  /// Steps of the iteration that were taken.
-  int iterations() const { return iterations_; }
 
  private:
   struct Corners {
@@ -67,7 +65,6 @@ class SkySource {
   std::size_t terms_;                 ///< harmonics of a node
   std::vector<SkyLanes> light_;       ///< [height][zenith][term]
   std::vector<SkyLanes> irradiance_;  ///< [zenith] at sea level, of the sky alone
-  int iterations_ = 0;
 };
 
 }  // namespace arcus::media

@@ -16,7 +16,6 @@ class SkyTable {
 
   /// Radiance that arrives from a direction (unit), the sun's disc left out, for unit irradiance of the sun on a surface that faces it [1/sr].
   Spectrum radiance(const Vec3& position_m, const Vec3& direction, const Wavelengths& wavelengths) const;
-  std::size_t memory_bytes() const { return values_.size() * sizeof(Entry); }
 
  private:
   struct Entry {
