@@ -13,7 +13,13 @@ namespace arcus::media {
 namespace {
 
 constexpr double ozone_begins_m = 10000, ozone_peaks_m = 25000, ozone_ends_m = 40000;
-constexpr int points = 8;
+constexpr int points_below_ozone = 8, points_above = 5;
+
+/// ∫ exp(−x t − k t²) dt for t from −½ to ½, to 10⁻⁸ where x is at most 1 and k at most 0.1.
+double mean_of_exponential(double x, double k) {
+  const double x2 = x * x, x4 = x2 * x2;
+  return 1 + (x2 / 2 - k) / 12 + (x4 / 24 - k * x2 / 2 + k * k / 2) / 80 + (x4 * x2 / 720 - k * x4 / 24 + k * k * x2 / 4 - k * k * k / 6) / 448;
+}
 
 }  // namespace
 
@@ -46,14 +52,38 @@ Ray Atmosphere::clipped(const Ray& ray) const {
   return inside;
 }
 
+std::optional<AirColumns> Atmosphere::short_columns(const Ray& ray) const {
+  // Height is a parabola of the way, around its middle: the next term is length³ / (16 radius²), 12 mm for 20 km.
+  constexpr double longest_m = 20000;
+  const double length = ray.farthest_m - ray.nearest_m;
+  if (!(length > 0 && length < longest_m)) return std::nullopt;
+  const Vec3 middle = ray.at(0.5 * (ray.nearest_m + ray.farthest_m));
+  const double height = height_m(middle), radius = settings_.planet_radius_m;
+  const double climb = dot(Vec3(middle.x, middle.y, middle.z + radius), ray.direction) / (radius + height);
+  const double rise = climb * length, bend = (1 - climb * climb) * length * length / (2 * (radius + height));
+  const double lowest = height - 0.5 * std::fabs(rise), highest = height + 0.5 * std::fabs(rise) + 0.25 * bend;
+  if (!(lowest >= 0 && highest < ozone_begins_m)) return std::nullopt;
+  const auto mean = [&](double scale_height) { return std::exp(-height / scale_height) * mean_of_exponential(rise / scale_height, bend / scale_height); };
+  const auto is_good = [&](double scale_height) { return std::fabs(rise) < scale_height && bend < 0.1 * scale_height; };
+  if (!is_good(settings_.molecule_scale_height_m)) return std::nullopt;
+  AirColumns sum{molecules_per_m3_ * length * mean(settings_.molecule_scale_height_m), 0, 0};
+  if (haze_per_m_ > 0) {
+    if (!is_good(settings_.haze_scale_height_m)) return std::nullopt;
+    sum.haze_depth_550 = haze_per_m_ * length * mean(settings_.haze_scale_height_m);
+  }
+  return sum;
+}
+
 AirColumns Atmosphere::columns(const Ray& ray) const {
+  if (const auto sum = short_columns(ray)) return *sum;
   const Flight flight(ray.origin_m, ray.direction, settings_.planet_radius_m, height_m(ray.origin_m));
   const double half_below_top = flight.half_below_m(settings_.top_m);
   const double begin = std::max(ray.nearest_m, flight.to_lowest_m - half_below_top), end = std::min(ray.farthest_m, flight.to_lowest_m + half_below_top);
   if (!(begin < end)) return {};
 
-  // Panels end where ozone has its corners, and before molecules or haze have fallen to less than e⁻³ in one: so eight points are good to a millionth.
-  static constexpr std::array<double, 11> layers{500, 1500, 3000, 5000, 7500, 10000, 25000, 40000, 65000, 90000, 110000};
+  // Panels end where ozone has its corners, and before molecules or haze have fallen to less than e⁻³ in one: so eight points are good to a millionth,
+  // and five where less lies. Above 65 km is a two thousandth.
+  static constexpr std::array<double, 9> layers{500, 1500, 3000, 5000, 7500, 10000, 25000, 40000, 65000};
   constexpr std::size_t layers_of_haze = 5;
   const std::size_t first_layer = haze_per_m_ > 0 ? 0 : layers_of_haze;
   std::array<double, 2 * layers.size() + 3> ends;
@@ -61,13 +91,8 @@ AirColumns Atmosphere::columns(const Ray& ray) const {
   const auto add = [&](double s) {
     if (s > begin && s < end) ends[count++] = s;
   };
-  // A short stretch that climbs or falls all along is as a rule in one of them.
-  const bool turns = flight.to_lowest_m > begin && flight.to_lowest_m < end;
-  const auto layer_of = [&](double s) { return std::upper_bound(layers.begin() + first_layer, layers.end(), flight.height_m(s)); };
-  const bool is_in_one = !turns && layer_of(begin) == layer_of(end);
-  for (std::size_t layer = is_in_one ? layers.size() : first_layer; layer < layers.size(); ++layer) {
-    const double height = layers[layer];
-    const double half_below = flight.half_below_m(height);
+  for (std::size_t layer = first_layer; layer < layers.size(); ++layer) {
+    const double half_below = flight.half_below_m(layers[layer]);
     if (half_below == 0) continue;
     add(flight.to_lowest_m - half_below);
     add(flight.to_lowest_m + half_below);
@@ -76,14 +101,13 @@ AirColumns Atmosphere::columns(const Ray& ray) const {
   ends[count++] = end;
   std::sort(ends.begin(), ends.begin() + static_cast<std::ptrdiff_t>(count));
 
-  // Two points are as good where the height hardly changes.
-  constexpr double hardly_m = 150;
-  static const Quadrature many = gauss_legendre(points), few = gauss_legendre(2);
-  const Quadrature& rule = is_in_one && std::fabs(flight.height_m(end) - flight.height_m(begin)) < hardly_m ? few : many;
+  const double few_above_m = haze_per_m_ > 0 ? ozone_peaks_m : ozone_begins_m;
+  static const Quadrature many = gauss_legendre(points_below_ozone), few = gauss_legendre(points_above);
   AirColumns sum;
   double left = begin;
   for (std::size_t panel = 0; panel < count; ++panel) {
     const double right = ends[panel], half_length = 0.5 * (right - left), middle = 0.5 * (right + left);
+    const Quadrature& rule = flight.height_m(middle) > few_above_m ? few : many;
     for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
       const AirColumns here = density(flight.height_m(middle + half_length * rule.nodes[i]));
       const double weight = half_length * rule.weights[i];

@@ -4,6 +4,8 @@
 //
 // z = 0 of the scene's world is sea level under its origin; the planet's centre lies straight below.
 
+#include <optional>
+
 #include "media/space/ray.h"
 
 namespace arcus::media {
@@ -52,6 +54,9 @@ class Atmosphere {
   static double optical_depth(const AirColumns& columns, double wavelength_nm, double haze_ratio = 1);
 
  private:
+  /// columns() in closed form, where the stretch lies below the ozone and its height changes by less than the densities' scale heights.
+  std::optional<AirColumns> short_columns(const Ray& ray) const;
+
   AirSettings settings_;
   double molecules_per_m3_, haze_per_m_, most_ozone_per_m3_;
 };

@@ -122,6 +122,30 @@ TEST(Atmosphere, PartsAddUp) {
   }
 }
 
+TEST(Atmosphere, ShortStretchesAreWhatManyPointsSay) {
+  AirSettings settings = hazy();
+  for (const double haze_scale_height : {300.0, 1200.0}) {
+    settings.haze_scale_height_m = haze_scale_height;
+    const Atmosphere air(settings);
+    for (const double elevation : {90.0, 20.0, 2.0, 0.0, -3.0, -60.0})
+      for (const double length : {0.5, 30.0, 700.0, 19000.0}) {
+        Ray stretch = at_elevation(elevation, 3000, 100 + length);
+        stretch.nearest_m = 100;
+        if (air.height_m(stretch.at(stretch.farthest_m)) < 0) continue;
+        AirColumns sum;
+        const int points = 20000;
+        for (int i = 0; i < points; ++i) {
+          const AirColumns here = air.density(air.height_m(stretch.at(100 + length * (i + 0.5) / points)));
+          sum += {here.molecules_per_m2 * length / points, here.ozone_per_m2 * length / points, here.haze_depth_550 * length / points};
+        }
+        const AirColumns columns = air.columns(stretch);
+        EXPECT_NEAR(columns.molecules_per_m2 / sum.molecules_per_m2, 1, 1e-6) << elevation << "°, " << length << " m";
+        EXPECT_NEAR(columns.haze_depth_550 / sum.haze_depth_550, 1, 1e-6) << elevation << "°, " << length << " m";
+        EXPECT_NEAR(columns.ozone_per_m2, sum.ozone_per_m2, 1e-6 * sum.ozone_per_m2);
+      }
+  }
+}
+
 TEST(Atmosphere, FromSpaceALineThatPassesByHasBothHalves) {
   const Atmosphere air({});
   const double radius = air.settings().planet_radius_m;
