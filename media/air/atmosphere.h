@@ -1,5 +1,5 @@
 #pragma once
-// The air around a scene: layers of a round planet whose densities depend on height alone. What lies along a straight ray is found by quadrature,
+// The air around a scene: layers of a round planet whose densities depend on height alone. What lies along a straight ray is found in closed forms,
 // once for all wavelengths: columns of molecules, which scatter, of ozone, which absorbs, and of haze, which does both.
 //
 // z = 0 of the scene's world is sea level under its origin; the planet's centre lies straight below.
@@ -9,6 +9,8 @@
 #include "media/space/ray.h"
 
 namespace arcus::media {
+
+struct Flight;
 
 struct AirSettings {
   double planet_radius_m = 6371000;
@@ -54,8 +56,13 @@ class Atmosphere {
   static double optical_depth(const AirColumns& columns, double wavelength_nm, double haze_ratio = 1);
 
  private:
-  /// columns() in closed form, where the stretch lies below the ozone and its height changes by less than the densities' scale heights.
+  double ozone_per_m3(double height_m) const;
+  /// columns() in closed form, where the stretch lies below the ozone and its height changes by less than the densities' scale heights;
   std::optional<AirColumns> short_columns(const Ray& ray) const;
+  /// by Chapman's function, where it lies above sea level; begin and end: as of the flight's start, below top_m;
+  std::optional<AirColumns> long_columns(const Flight& flight, double begin, double end) const;
+  /// and of any stretch.
+  AirColumns columns_by_quadrature(const Flight& flight, double begin, double end) const;
 
   AirSettings settings_;
   double molecules_per_m3_, haze_per_m_, most_ozone_per_m3_;

@@ -146,6 +146,15 @@ TEST(Atmosphere, ShortStretchesAreWhatManyPointsSay) {
   }
 }
 
+TEST(Atmosphere, BelowSeaLevelTheDensityIsThatOfSeaLevel) {
+  const Atmosphere air(hazy());
+  Ray through = at_elevation(-90, 2000, 3000), above = through;
+  above.farthest_m = 2000;
+  EXPECT_NEAR(air.columns(through).molecules_per_m2, air.columns(above).molecules_per_m2 + 1000 * air.density(0).molecules_per_m2,
+              1e-6 * air.columns(through).molecules_per_m2);
+  EXPECT_NEAR(air.columns(at_elevation(10, -400, 100)).haze_depth_550, 100 * air.density(0).haze_depth_550, 1e-9);
+}
+
 TEST(Atmosphere, FromSpaceALineThatPassesByHasBothHalves) {
   const Atmosphere air({});
   const double radius = air.settings().planet_radius_m;
