@@ -6,7 +6,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 case "${2:?usage: author.sh ARCUS NAME}" in
   rain_shower)
     "$arcus" author rain -o rain_shower.vdb --drops narrow --radius-um 220 --radius-exponent 0.1 --variance 0.02 \
-      --rain-mm-per-hour 0.4 --core-radius-m 700 --edge-width-m 500 --stretch 7 --centre-m=-2500,2500,0 --cloud-base-m 2600 \
+      --rain-mm-per-hour 1 --core-radius-m 700 --edge-width-m 500 --stretch 7 --centre-m=-2500,2500,0 --cloud-base-m 2600 \
       --virga-m 12000 --streak-contrast 0.45 --turbulence 0.25 ;;
   shower_at_sunset)
     "$arcus" author rain -o shower_at_sunset.vdb --rain-mm-per-hour 8 --core-radius-m 1300 --edge-width-m 700 --stretch 3.5 --centre-m=-1000,3600,0 \
