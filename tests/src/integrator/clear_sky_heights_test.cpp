@@ -268,7 +268,7 @@ TEST(ClearSkyHeights, TracedAndTabulatedAgree) {
         const Wavelengths wavelengths = one_wavelength(number % 2 == 0 ? 450 : 620);
         const double azimuth_deg = number % 4 < 2 ? 40 : 170;
         const media::Ray ray{{0, 0, height_m}, direction_of(azimuth_deg, elevation_deg)};
-        const Moments expected = traced(all_traced, ray, ++number, wavelengths, 100);
+        const Moments expected = traced(all_traced, ray, ++number, wavelengths, 80);
         const double found = static_cast<double>((tabulated.sky_table->radiance(ray.origin_m, ray.direction, wavelengths) * tabulated.sun.irradiance_w_per_m2_nm(wavelengths))[0]);
         EXPECT_NEAR(found, expected.mean(), 0.03 * expected.mean() + 3 * expected.standard_error())
             << height_m << " m, sun " << sun_deg << ", elevation " << elevation_deg << ", azimuth " << azimuth_deg << ", " << wavelengths[0] << " nm: table " << found << ", traced " << expected.mean() << " +- "
