@@ -9,11 +9,12 @@
 
 #include "media/air/air_march.h"
 #include "phase/base/frame.h"
+#include "phase/optics/air.h"
 
 namespace arcus::media {
 namespace {
 
-constexpr std::array<double, 16> heights_m{0, 200, 500, 1000, 1700, 2700, 4000, 6000, 9000, 13000, 18000, 25000, 35000, 50000, 75000, 120000};
+constexpr std::array<double, 18> heights_m{0, 15, 60, 200, 500, 1000, 1700, 2700, 4000, 6000, 9000, 13000, 18000, 25000, 35000, 50000, 75000, 120000};
 /// How high the sun stands: at the origin and to both sides, no farther apart than this where places are.
 constexpr double most_zenith_step_rad = 0.6 * pi / 180;
 constexpr int most_zeniths_aside = 4;
@@ -26,9 +27,10 @@ constexpr double aside_rad = 1e-7;
 }  // namespace
 
 SkyTable::SkyTable(const Atmosphere& air, std::shared_ptr<const Haze> haze, const SkySettings& settings, double highest_m, double farthest_m)
-    : air_(air), haze_(std::move(haze)), optics_(haze_.get()), settings_(settings) {
+    : air_(air), haze_(std::move(haze)), optics_(haze_.get()), settings_(settings), scattering_m2_(phase::air_scattering_cross_section_m2(550)) {
   for (const double height : heights_m) {
     height_m_.push_back(height);
+    thinness_.push_back(thinness(height));
     if (height >= highest_m) break;
   }
   const double zenith = std::acos(std::clamp(settings.to_sun.z, -1.0, 1.0));
@@ -86,7 +88,7 @@ Spectrum SkyTable::radiance(const Vec3& position_m, const Vec3& direction, const
     const std::size_t low = static_cast<std::size_t>(above - nodes.begin()) - 1;
     return {low, static_cast<float>(std::clamp((x - nodes[low]) / (nodes[low + 1] - nodes[low]), 0.0, 1.0))};
   };
-  const Cell at_height = cell(height_m_, height), at_zenith = cell(zenith_rad_, std::acos(sun_cosine));
+  const Cell at_zenith = cell(zenith_rad_, std::acos(sun_cosine));
 
   // Azimuth from the sun.
   const Vec3 level = direction - up * sine, level_sun = settings_.to_sun - up * sun_cosine;
@@ -98,6 +100,10 @@ Spectrum SkyTable::radiance(const Vec3& position_m, const Vec3& direction, const
   // The place between nodes is on the same side of the horizon, and as far from it, at both heights.
   const double elevation = std::asin(sine), horizon = horizon_rad(air_, height);
   const bool is_above = elevation >= horizon;
+  // What is seen upwards goes with the air above, what is seen below the horizon with the height.
+  Cell at_height = cell(height_m_, height);
+  const auto level_share = static_cast<float>(elevation >= 0 ? 1 : is_above ? 1 - elevation / horizon : 0);
+  if (level_share > 0) at_height.share += level_share * (cell(thinness_, thinness(height)).share - at_height.share);
   const double u = is_above ? std::sqrt(std::max(0.0, (elevation - horizon) / (pi / 2 - horizon))) : std::sqrt(std::max(0.0, (horizon - elevation) / (pi / 2 + horizon)));
   const std::size_t side_nodes = is_above ? above_nodes : below_nodes;
   const double v = std::min(u, 1.0) * static_cast<double>(side_nodes - 1);
@@ -134,6 +140,13 @@ Spectrum SkyTable::radiance(const Vec3& position_m, const Vec3& direction, const
   Spectrum light = before + molecules * SkyAir::molecular_phase_per_sr(dot(direction, settings_.to_sun));
   if (optics_.has_haze()) light += haze * optics_.haze_phase_per_sr(direction, settings_.to_sun, wavelengths);
   return light;
+}
+
+double SkyTable::thinness(double height_m) const {
+  const AirColumns here = air_.density(height_m);
+  const AirSettings& air = air_.settings();
+  // Where there is no air at all: by the height.
+  return 1e-13 * height_m - (here.molecules_per_m2 * air.molecule_scale_height_m * scattering_m2_ + here.haze_depth_550 * air.haze_scale_height_m);
 }
 
 std::size_t SkyTable::index(std::size_t height, std::size_t zenith, std::size_t elevation, std::size_t azimuth) const {

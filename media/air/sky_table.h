@@ -25,6 +25,8 @@ class SkyTable {
     std::size_t low;
     float share;  ///< of the next one
   };
+  /// Less the optical depth above a height, about: what a height counts as between those that are tabulated, since what is seen upwards goes with it.
+  double thinness(double height_m) const;
   std::size_t index(std::size_t height, std::size_t zenith, std::size_t elevation, std::size_t azimuth) const;
   Entry made(const SkySource& source, double height_m, double zenith_rad, double elevation_rad, double azimuth_rad) const;
 
@@ -32,7 +34,8 @@ class SkyTable {
   std::shared_ptr<const Haze> haze_;
   SkyAir optics_;
   SkySettings settings_;
-  std::vector<double> height_m_, zenith_rad_;
+  double scattering_m2_;  // of a molecule, at 550 nm
+  std::vector<double> height_m_, thinness_, zenith_rad_;
   std::vector<Entry> values_;
 };
 

@@ -14,7 +14,7 @@ void list_keys(Keys& keys, SkySettings& sky) {
   }
   if (keys.only_if(sky.type == "clear", "type = clear")) {
     keys.choice("method", sky.method, {"table", "traced"},
-                "table: air is traced where media and surfaces are, or their shadows may fall, and its light from farther away is tabulated before (within 3 %); traced: all of it, without bias, slowly");
+                "table: air is traced where media and surfaces are, or their shadows may fall, and its light from farther away is tabulated before (within 3 %); traced, and with table where scene or camera reach higher than 20 km: all of it, without bias, slowly");
     keys.choice("haze", sky.haze.type, {"none", "continental", "maritime", "desert"}, "particles in the air besides: mixtures of OPAC at a relative humidity of 80 %");
     if (keys.only_if(sky.haze.type != "none", "haze other than none")) {
       keys.number("haze_optical_depth", sky.haze.optical_depth, between(0, 5), "of the haze at 550 nm, straight up from z = 0: 0.05 very clear, 0.1 clear, 0.3 hazy");

@@ -246,6 +246,13 @@ void add_air(const SceneSettings& settings, const BuildOptions& options, Scene& 
   if (sky.ground_albedo > 0) scene.ground.emplace(Matte(sky.ground_albedo));
   if (sky.method != "table" || !scene.sun.is_on()) return;
   scene.air_region_m = air_region_m(scene, settings.camera.position_m);
+  // From higher up one sees farther around the planet than the table's light is known, and its heights are too far apart.
+  constexpr double highest_tabulated_m = 20000;
+  const double highest_m = std::max(scene.air_region_m.high.z, scene.air->height_m(settings.camera.position_m));
+  if (highest_m > highest_tabulated_m) {
+    if (options.log) options.log(settings.path + ": sky: the scene or its camera reaches " + number_text(std::round(highest_m / 1000)) + " km up, where the table of the sky does not hold: all air is traced");
+    return;
+  }
   constexpr double above_region_m = 2000;  // level surfaces reach farther, where the planet curves away from them
   const media::SkySettings light{scene.sun.to_centre(), scene.sun.angular_radius_rad(), sky.ground_albedo};
   const media::Box& region = scene.air_region_m;

@@ -1,14 +1,16 @@
 // The intersector with a hierarchy: Embree finds the candidates in single precision, within boxes that are a little too large, and the
-// exact meeting is computed in double precision.
+// exact meeting is computed in double precision. Groups whose sizes are too different for that have hierarchies of their own.
 #include "src/shape/intersector.h"
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <string>
 
 #include "phase/base/error.h"
+#include "src/shape/near_groups.h"
 
 namespace arcus::render {
 namespace {
@@ -103,24 +105,18 @@ void filter(const RTCFilterFunctionNArguments* arguments) {
   question.best = {{group.number, piece}, meeting};
 }
 
-class Hierarchy : public Intersector {
+/// Of some of the groups.
+class Hierarchy {
  public:
-  explicit Hierarchy(const std::vector<PieceGroup>& groups) : device_(rtcNewDevice(nullptr)) {
-    if (!device_) throw cannot("embree", "no device");
-    rtcSetDeviceErrorFunction(device_, [](void* self, RTCError error, const char* text) {
-      static_cast<Hierarchy*>(self)->error_ = std::to_string(error) + (text ? std::string(": ") + text : "");
-    }, this);
-    for (const PieceGroup& group : groups) bounds_.include(bounds_of(group));
-    if (!bounds_.is_empty()) build(groups);
+  Hierarchy(RTCDevice device, const std::vector<PieceGroup>& groups, const std::vector<std::uint32_t>& numbers) : device_(device) {
+    for (const std::uint32_t number : numbers) bounds_.include(bounds_of(groups[number]));
+    build(groups, numbers);
   }
-  ~Hierarchy() override {
-    if (scene_) rtcReleaseScene(scene_);
-    rtcReleaseDevice(device_);
-  }
+  ~Hierarchy() { rtcReleaseScene(scene_); }
   Hierarchy(const Hierarchy&) = delete;
   Hierarchy& operator=(const Hierarchy&) = delete;
 
-  std::optional<PieceHit> nearest(const media::Ray& ray, const Departure& departure) const override {
+  std::optional<PieceHit> nearest(const media::Ray& ray, const Departure& departure) const {
     Question question;
     RTCRayHit hit;
     if (!prepare(ray, departure, question, hit.ray)) return std::nullopt;
@@ -129,7 +125,7 @@ class Hierarchy : public Intersector {
     if (question.best.id.group == PieceId::none) return std::nullopt;
     return question.best;
   }
-  bool is_blocked(const media::Ray& ray, const Departure& departure) const override {
+  bool is_blocked(const media::Ray& ray, const Departure& departure) const {
     Question question;
     RTCRay embree_ray;
     if (!prepare(ray, departure, question, embree_ray)) return false;
@@ -138,7 +134,7 @@ class Hierarchy : public Intersector {
   }
 
  private:
-  void build(const std::vector<PieceGroup>& groups) {
+  void build(const std::vector<PieceGroup>& groups, const std::vector<std::uint32_t>& numbers) {
     origin_m_ = bounds_.centre();
     const Vec3 size = bounds_.size();
     // Single precision places the ray to half a unit of 2⁻²³ in each of origin and direction, along at most the diagonal.
@@ -146,15 +142,12 @@ class Hierarchy : public Intersector {
     bounds_ = bounds_.grown_by(margin_m);
     scene_ = rtcNewScene(device_);
     rtcSetSceneFlags(scene_, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION | RTC_SCENE_FLAG_COMPACT));
-    groups_.reserve(groups.size());
-    for (std::uint32_t g = 0; g < groups.size(); ++g) {
-      groups_.push_back({&groups[g], g, origin_m_, margin_m});
-      if (groups[g].size() == 0) continue;
+    groups_.reserve(numbers.size());
+    for (const std::uint32_t number : numbers) {
+      groups_.push_back({&groups[number], number, origin_m_, margin_m});
       attach(groups_.back());
     }
     rtcCommitScene(scene_);
-    if (const RTCError error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE || !error_.empty())
-      throw cannot("the hierarchy of surfaces", "embree reports " + error_);
   }
   void attach(Group& group) {
     const bool is_mesh = group.pieces->triangle_count() > 0;
@@ -208,7 +201,6 @@ class Hierarchy : public Intersector {
   }
   /// False where the ray passes all pieces by.
   bool prepare(const media::Ray& ray, const Departure& departure, Question& question, RTCRay& embree_ray) const {
-    if (!scene_) return false;
     const auto part = media::clip(ray, bounds_);
     if (!part) return false;
     rtcInitIntersectContext(&question.embree);
@@ -234,14 +226,53 @@ class Hierarchy : public Intersector {
 
   RTCDevice device_;
   RTCScene scene_ = nullptr;
-  std::string error_;
   media::Box bounds_;
   Vec3 origin_m_;
   std::vector<Group> groups_;
 };
 
+class Hierarchies : public Intersector {
+ public:
+  explicit Hierarchies(const std::vector<PieceGroup>& groups) : device_(rtcNewDevice(nullptr)) {
+    if (!device_) throw cannot("embree", "no device");
+    rtcSetDeviceErrorFunction(device_, [](void* self, RTCError error, const char* text) {
+      static_cast<Hierarchies*>(self)->error_ = std::to_string(error) + (text ? std::string(": ") + text : "");
+    }, this);
+    for (const auto& numbers : groups_near_together(groups)) {
+      parts_.push_back(std::make_unique<const Hierarchy>(device_, groups, numbers));
+      if (const RTCError error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE || !error_.empty())
+        throw cannot("the hierarchy of surfaces", "embree reports " + error_);
+    }
+  }
+  ~Hierarchies() override {
+    parts_.clear();
+    rtcReleaseDevice(device_);
+  }
+  Hierarchies(const Hierarchies&) = delete;
+  Hierarchies& operator=(const Hierarchies&) = delete;
+
+  std::optional<PieceHit> nearest(const media::Ray& ray, const Departure& departure) const override {
+    std::optional<PieceHit> best;
+    media::Ray rest = ray;
+    for (const auto& part : parts_)
+      if (const auto found = part->nearest(rest, departure)) {
+        best = found;
+        rest.farthest_m = found->meeting.distance_m;
+      }
+    return best;
+  }
+  bool is_blocked(const media::Ray& ray, const Departure& departure) const override {
+    return std::any_of(parts_.begin(), parts_.end(), [&](const auto& part) { return part->is_blocked(ray, departure); });
+  }
+
+ private:
+  RTCDevice device_;
+  std::string error_;
+  std::vector<std::unique_ptr<const Hierarchy>> parts_;
+};
+
 }  // namespace
 
-std::unique_ptr<const Intersector> make_hierarchy(const std::vector<PieceGroup>& groups) { return std::make_unique<Hierarchy>(groups); }
+std::unique_ptr<const Intersector> make_hierarchy(const std::vector<PieceGroup>& groups) { return std::make_unique<Hierarchies>(groups); }
 
 }  // namespace arcus::render

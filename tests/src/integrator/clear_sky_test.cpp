@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <tbb/parallel_for.h>
-
 #include <cmath>
 #include <iostream>
 #include <optional>
@@ -13,30 +11,17 @@
 #include "phase/base/curve.h"
 #include "phase/species/species_cache.h"
 #include "phase/base/units.h"
-#include "src/integrator/volume_path.h"
-#include "tests/statistics/seed.h"
-#include "tests/statistics/students_t.h"
+#include "tests/src/integrator/traced.h"
 
 namespace arcus::render {
 namespace {
-
-using statistics::Moments;
-
-constexpr double wavelength_nm = 550;
-
-/// All four wavelengths are one, so that the layer's optical depth is.
-Wavelengths one_wavelength() {
-  Wavelengths wavelengths;
-  wavelengths.nm = {wavelength_nm, wavelength_nm, wavelength_nm, wavelength_nm};
-  return wavelengths;
-}
 
 /// As much air as makes the optical depth, over a planet so large that layers are flat.
 media::Atmosphere flat_air(double optical_depth) {
   media::AirSettings settings;
   settings.planet_radius_m = 1e11;
   settings.ozone_dobson_units = 0;
-  const auto depth = [&] { return media::Atmosphere::optical_depth(media::Atmosphere(settings).columns({{0, 0, 0}, {0, 0, 1}}), wavelength_nm); };
+  const auto depth = [&] { return media::Atmosphere::optical_depth(media::Atmosphere(settings).columns({{0, 0, 0}, {0, 0, 1}}), 550); };
   settings.pressure_hpa *= optical_depth / depth();
   EXPECT_NEAR(depth(), optical_depth, 1e-9);
   return media::Atmosphere(settings);
@@ -62,25 +47,6 @@ media::Ray ray_of(bool looks_down, double view_cosine, double azimuth_deg, doubl
   return {Vec3(0, 0, looks_down ? top_m : 1e-3), direction_of(azimuth_deg, looks_down ? -elevation_deg : elevation_deg)};
 }
 
-/// number: of the question, so that each has its own random numbers.
-Moments traced(const Scene& scene, const media::Ray& ray, std::size_t number, const Wavelengths& wavelengths = one_wavelength()) {
-  const VolumePath integrator(scene, 1000000);
-  constexpr int tasks = 64;
-  const int samples = static_cast<int>(300 * statistics::test_effort());
-  std::vector<double> means(tasks);
-  tbb::parallel_for(0, tasks, [&](int task) {
-    double sum = 0;
-    for (int i = 0; i < samples; ++i) {
-      Random random(statistics::test_seed(), static_cast<std::uint64_t>(number) * tasks + static_cast<std::uint64_t>(task), static_cast<std::uint32_t>(i));
-      sum += integrator.radiance(ray, wavelengths, {0.5, 0.5, 0.5, random.uniform_double(), random.uniform_double()}, random).mean();
-    }
-    means[static_cast<std::size_t>(task)] = sum / samples;
-  });
-  Moments moments;
-  for (const double mean : means) moments.add(mean);
-  return moments;
-}
-
 }  // namespace
 
 TEST(ClearSky, RadiancesOfFlatLayersMeetTheReference) {
@@ -94,7 +60,7 @@ TEST(ClearSky, RadiancesOfFlatLayersMeetTheReference) {
     const bool looks_down = column("looks_down") > 0;
     if (!looks_down && view == sun_cosine && (view == 1 || column("azimuth_deg") == 0)) continue;  // straight into the sun
     const Scene scene = scene_of(column("optical_depth"), column("ground_albedo"), sun_cosine);
-    const Moments found = traced(scene, ray_of(looks_down, view, column("azimuth_deg"), scene.air->settings().top_m), i);
+    const Moments found = traced(scene, ray_of(looks_down, view, column("azimuth_deg"), scene.air->settings().top_m), i, one_wavelength(550));
     deviations.add((found.mean() - expected) / found.standard_error());
     EXPECT_NEAR(found.mean(), expected, 0.01 * expected + 3 * found.standard_error())
         << "depth " << column("optical_depth") << " albedo " << column("ground_albedo") << " sun " << sun_cosine << (looks_down ? " down " : " up ") << view << " azimuth "
@@ -106,9 +72,7 @@ TEST(ClearSky, RadiancesOfFlatLayersMeetTheReference) {
 }
 
 TEST(ClearSky, TracedAndTabulatedAgree) {
-  Wavelengths blue, red;
-  blue.nm = {450, 450, 450, 450};
-  red.nm = {620, 620, 620, 620};
+  const Wavelengths blue = one_wavelength(450), red = one_wavelength(620);
   const auto haze = std::make_shared<const media::Haze>("continental", phase::SpeciesOptions{.cache_folder = phase::default_cache_folder()});
   std::size_t number = 0;
   for (const double haze_depth : {0.0, 0.2})
@@ -145,7 +109,7 @@ TEST(ClearSky, TracedAndTabulatedAgree) {
 TEST(ClearSky, AnotherAmountOfAirWouldBeSeen) {
   Moments ratios;
   for (std::size_t i = 0; i < 20; ++i) {  // a twentieth more than the reference has
-    const auto seen = [&](double depth, std::size_t number) { return traced(scene_of(depth, 0, 0.6), ray_of(false, 1, 0, 0), number).mean(); };
+    const auto seen = [&](double depth, std::size_t number) { return traced(scene_of(depth, 0, 0.6), ray_of(false, 1, 0, 0), number, one_wavelength(550)).mean(); };
     ratios.add(seen(0.525, 2 * i) / seen(0.5, 2 * i + 1));
   }
   EXPECT_GT(ratios.mean() - 1, 3 * ratios.standard_error());
