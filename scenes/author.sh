@@ -48,5 +48,5 @@ case "${2:?usage: author.sh ARCUS NAME}" in
   slab)
     "$arcus" author box -o slab.vdb --name layer --optical-depth 5 --centre-m 0,0,0 --size-m 100000,100000,1 --voxels 4,4,4 \
       --phase-type hg --phase-g 0.85 ;;
-  *) echo "author.sh: no medium for '$2'; known: rain_shower, moonbow, shower_at_sunset, cumulus, crepuscular, fogbow, glory, corona, halo_22, parhelia, circumzenithal, display, slab" >&2; exit 2 ;;
+  *) echo "author.sh: no medium for '$2'; known: rain_shower, moonbow, shower_at_sunset, cumulus, crepuscular, fogbow, glory, corona, halo_22, parhelia, circumzenithal, display, droplets, slab" >&2; exit 2 ;;
 esac

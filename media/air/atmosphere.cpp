@@ -15,6 +15,8 @@ namespace {
 
 constexpr double ozone_begins_m = 10000, ozone_peaks_m = 25000, ozone_ends_m = 40000;
 constexpr int points = 8, points_in_ozone = 3;
+/// way_to_space_m() asks for it.
+constexpr double least_radius_over_scale_height = 500;
 /// As much as rounding may put a place on the ground below it.
 constexpr double below_sea_level_m = 1e-3;
 
@@ -30,7 +32,8 @@ Atmosphere::Atmosphere(const AirSettings& settings)
     : settings_(settings),
       molecules_per_m3_(phase::air_molecules_per_m3_at_sea_level * settings.pressure_hpa / 1013.25),
       haze_per_m_(settings.haze_depth_550 / settings.haze_scale_height_m),
-      most_ozone_per_m3_(settings.ozone_dobson_units * phase::molecules_per_m2_in_dobson_unit / (0.5 * (ozone_ends_m - ozone_begins_m))) {}
+      most_ozone_per_m3_(settings.ozone_dobson_units * phase::molecules_per_m2_in_dobson_unit / (0.5 * (ozone_ends_m - ozone_begins_m))),
+      is_thin_(least_radius_over_scale_height * std::max(settings.molecule_scale_height_m, haze_per_m_ > 0 ? settings.haze_scale_height_m : 0.0) <= settings.planet_radius_m) {}
 
 double Atmosphere::height_m(const Vec3& position_m) const {
   const double radius = settings_.planet_radius_m;
@@ -120,12 +123,14 @@ std::optional<AirColumns> Atmosphere::long_columns(const Flight& flight, double 
 }
 
 AirColumns Atmosphere::columns(const Ray& ray) const {
-  if (const auto sum = short_columns(ray)) return *sum;
+  if (is_thin_)
+    if (const auto sum = short_columns(ray)) return *sum;
   const Flight flight(ray.origin_m, ray.direction, settings_.planet_radius_m, height_m(ray.origin_m));
   const double half_below_top = flight.half_below_m(settings_.top_m);
   const double begin = std::max(ray.nearest_m, flight.to_lowest_m - half_below_top), end = std::min(ray.farthest_m, flight.to_lowest_m + half_below_top);
   if (!(begin < end)) return {};
-  if (const auto sum = long_columns(flight, begin, end)) return *sum;
+  if (is_thin_)
+    if (const auto sum = long_columns(flight, begin, end)) return *sum;
   return columns_by_quadrature(flight, begin, end);
 }
 

@@ -66,6 +66,7 @@ class Atmosphere {
 
   AirSettings settings_;
   double molecules_per_m3_, haze_per_m_, most_ozone_per_m3_;
+  bool is_thin_;  ///< all scale heights are far below the planet's radius, as the closed forms ask
 };
 
 }  // namespace arcus::media

@@ -146,6 +146,19 @@ TEST(Atmosphere, ShortStretchesAreWhatManyPointsSay) {
   }
 }
 
+TEST(Atmosphere, OnASmallPlanetItIsWhatManyPointsSay) {
+  AirSettings settings = hazy();
+  settings.planet_radius_m = 200000;
+  const Atmosphere air(settings);
+  for (const double elevation : {0.0, 5.0, 40.0}) {
+    const Ray ray = at_elevation(elevation, 0, 400000);
+    double sum = 0;
+    constexpr int points = 400000;
+    for (int i = 0; i < points; ++i) sum += air.density(air.height_m(ray.at(400000 * (i + 0.5) / points))).molecules_per_m2 * 400000 / points;
+    EXPECT_NEAR(air.columns(ray).molecules_per_m2 / sum, 1, 1e-6) << elevation;
+  }
+}
+
 TEST(Atmosphere, BelowSeaLevelTheDensityIsThatOfSeaLevel) {
   const Atmosphere air(hazy());
   Ray through = at_elevation(-90, 2000, 3000), above = through;
